@@ -8,7 +8,11 @@ from typing import Any
 
 __all__ = ["ABOVE", "above", "lazy_names"]
 
-ABOVE = {"figures_of": "plot.accessors.base", "save_result": "files.results"}
+ABOVE = {
+    "figures_of": "plot.accessors.base",
+    "save_npz": "files.results",
+    "save_result": "files.results",
+}
 """Functions of rooms above that a result offers as a property or a method, with their modules.
 
 `result.plot` and `result.save` are for users; a room that computes knows neither figures nor files.

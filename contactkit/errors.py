@@ -38,6 +38,9 @@ class ContactkitError(Exception):
     """Base class of the exceptions of contactkit."""
 
 
+# Letters of a value and of a name of a field that a message shows, the middle left out: a file may
+# hold texts of megabytes, and a message is to fit on a screen with its cure. The longest own field
+# has 60.
 _LONGEST = 500
 _LONGEST_FIELD = 200
 

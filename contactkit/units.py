@@ -41,6 +41,7 @@ __all__ = [
     "us",
 ]
 
+# SI prefixes, exact
 pm, nm, um, mm = 1e-12, 1e-9, 1e-6, 1e-3
 us, ms = 1e-6, 1e-3
 mN = 1e-3
@@ -48,7 +49,7 @@ mPa, kPa, MPa, GPa, bar = 1e-3, 1e3, 1e6, 1e9, 1e5
 cSt = 1e-6
 deg = math.pi / 180.0
 
-_ZERO_CELSIUS = 273.15
+_ZERO_CELSIUS = 273.15  # [K], exact by definition
 _CELSIUS = ("degC", "°C", "℃", "C")
 
 _PREFIXES = {
@@ -196,8 +197,11 @@ def _spelt(text: str) -> str:
     return "for example 'um', 'mN/m', 'mPa.s', 'mm2/s', 'kg/m3', 'deg', 'degC'"
 
 
+# A file may hold any text: with these limits neither a factor overflows (units of this table are
+# within 1e-24 to 1e24 a power) nor does the search for the meaning of a text take long. Units in
+# use have powers up to 4 and some 20 letters.
 _LARGEST_POWER = 12
-_LONGEST = 200  # letters of a unit or a quantity: a longer text is something else
+_LONGEST = 200
 
 
 @lru_cache(maxsize=256)

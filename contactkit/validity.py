@@ -10,7 +10,7 @@ from attrs import field, frozen
 
 from .errors import ValidityWarning
 
-__all__ = ["ValidityNumber", "warn"]
+__all__ = ["ValidityNumber", "note_worst", "warn"]
 
 
 @frozen(kw_only=True)
@@ -32,6 +32,12 @@ class ValidityNumber:
         """Whether the value is in its range; None if it is not known."""
         return None if self.value is None else self.low <= self.value <= self.high
 
+    def _excess(self) -> float:
+        """How far the value lies outside its range; negative inside."""
+        if self.value is None:
+            return -math.inf
+        return max(self.value - self.high, self.low - self.value)
+
     @property
     def bounds(self) -> str:
         """The range as text: at least, at most, or from one to the other."""
@@ -44,6 +50,23 @@ class ValidityNumber:
             return f"{self.name}: not evaluated, {self.detail}"
         verdict = "ok" if self.is_valid else "OUT OF RANGE"
         return f"{self.name} = {self.value:.3g} ({self.bounds}): {verdict}; {self.detail}"
+
+
+def note_worst(worst: dict[str, ValidityNumber], found: Iterable[ValidityNumber]) -> None:
+    """Keep the worst of each number, by its name.
+
+    Examples
+    --------
+    >>> worst = {}
+    >>> for value in (0.1, 0.3, 0.2):
+    ...     note_worst(worst, [ValidityNumber(name="slope", value=value, high=0.2, detail="small")])
+    >>> worst["slope"].value
+    0.3
+    """
+    for one in found:
+        kept = worst.get(one.name)
+        if kept is None or kept.value is None or one._excess() > kept._excess():
+            worst[one.name] = one
 
 
 def warn(found: Iterable[ValidityNumber], stacklevel: int = 3) -> None:

@@ -51,12 +51,16 @@ class Point:
 
 @frozen
 class WorkPrecision:
-    """Errors and costs of a sweep; errors are relative to a reference of known accuracy."""
+    """Errors and costs of a sweep; errors are relative to a reference of known accuracy.
+
+    `judge` names the reference where it is not one number.
+    """
 
     quantity: str
     reference: float
     floor: float
     points: tuple[Point, ...]
+    judge: str = ""
 
     def cheapest(self, error: float) -> Point:
         """Return the fastest setting with at most this relative error, models excluded.
@@ -90,8 +94,8 @@ class WorkPrecision:
             )
         rows.append("seconds: wall time, the least where a setting ran more than once")
         rows.append(
-            f"relative error of the {self.quantity} against {self.reference:.10g}, "
-            f"known to {self.floor:.0e}"
+            f"relative error of the {self.quantity} against "
+            f"{self.judge or f'{self.reference:.10g}'}, known to {self.floor:.0e}"
         )
         return "\n".join(rows)
 

@@ -40,7 +40,7 @@ __all__ = [
     "lennard_jones_tension",
 ]
 
-_PEAK_AT = 3.0 ** (1.0 / 6.0)  # z/z_0 of the largest tension
+_PEAK_AT = 3.0 ** (1.0 / 6.0)  # z/z_0 of the largest tension: root of d(tension)/dz
 LENNARD_JONES_PEAK = 16.0 / (9.0 * 3.0**0.5)
 """Largest tension of a Lennard-Jones law over w/z_0, 1.026."""
 LENNARD_JONES_SLOPE = 8.0 * 7.5 ** (-2.0 / 3.0) * (1.0 - 3.0 / 7.5)

@@ -26,7 +26,7 @@ from typing import Any
 
 __all__ = ["PULL_OFF_FORCE", "force_before_touch", "load", "radius_at_load", "reach"]
 
-PULL_OFF_FORCE = 2.0
+PULL_OFF_FORCE = 2.0  # in units of pi w R: the attraction of rigid spheres (Bradley 1932)
 
 
 def load(contact_radius: Any) -> Any:

@@ -31,9 +31,11 @@ __all__ = [
     "radius_at_load",
 ]
 
-PULL_OFF_FORCE = 1.5  # maximum tensile load: pull-off under load control
+# Roots of d(load)/d(radius) and of d(approach)/d(radius) of the two functions below: pull-off under
+# load control, and the last contact under displacement control, where the tension is less.
+PULL_OFF_FORCE = 1.5
 PULL_OFF_RADIUS = 1.5 ** (1.0 / 3.0)
-LAST_RADIUS = 6.0 ** (-1.0 / 3.0)  # at pull-off under displacement control
+LAST_RADIUS = 6.0 ** (-1.0 / 3.0)
 LAST_FORCE = 5.0 / 6.0
 LAST_GAP = 3.0 * LAST_RADIUS**2
 
@@ -75,6 +77,8 @@ def radius_at_gap(gap: float) -> float:
     >>> round(radius_at_gap(0.0) ** 3 * 3.0, 12)  # touching as before adhesion acted
     8.0
     """
+    # In x = sqrt(a) the equation is a quartic, convex for x > 0, and the start is above its root
+    # for tension and for compression alike: Newton's method needs no bracket.
     slope = 2.0 / 3.0 * math.sqrt(6.0)
     x = max((2.0 * slope) ** (1.0 / 3.0), (2.0 * max(-gap, 0.0)) ** 0.25)
     last = math.sqrt(LAST_RADIUS)

@@ -47,7 +47,7 @@ __all__ = [
 PARTS_BEFORE_RELEASE = (9.0 * math.pi / (16.0 * (math.pi - 1.0))) ** (1.0 / 3.0)
 """Transition parameter, 0.938, below which the contact is lost before the attraction."""
 
-_TWO_THIRDS, _FOUR_THIRDS = 2.0 / 3.0, 4.0 / 3.0
+_TWO_THIRDS, _FOUR_THIRDS = 2.0 / 3.0, 4.0 / 3.0  # of Maugis' equations in his units
 
 
 class Cohesion(NamedTuple):
@@ -74,7 +74,7 @@ class Limits(NamedTuple):
 
 def _less_its_arctangent(t: float) -> float:
     """Return t - arctan(t), by its series where the two cancel."""
-    if t > 0.3:
+    if t > 0.3:  # beyond, the difference loses less than two digits; at 0.1 it loses two and a half
         return t - math.atan(t)
     square, total = t * t, 0.0
     for k in range(16, 0, -1):
@@ -108,7 +108,8 @@ def _spread(a: float, s: float, transition: float) -> float:
 
 def _width(a: float, transition: float) -> float:
     """Solve the condition on the cohesive zone for s, by Newton's method in logarithms."""
-    # For a = 0 the condition is quadratic; around a contact the zone is narrower in s/a only.
+    # s runs over decades with the transition parameter, and the condition is close to a power of s:
+    # Newton's method in logarithms needs no bracket. For a = 0 it is quadratic, and starts there.
     b, q = _TWO_THIRDS * (math.pi - 2.0) * transition, 0.25 * math.pi * transition
     s = 2.0 / (b * transition + math.sqrt((b * transition) ** 2 + 4.0 * q))
     for _ in range(60):
@@ -136,6 +137,7 @@ def at_radius(contact_radius: float, transition: float) -> Cohesion:
 
 
 def _state(a: float, s: float, transition: float) -> Cohesion:
+    # The unknown is s = sqrt(c^2 - a^2), not c: for a sharp adhesion c - a is lost in round-off.
     square = a * a + s * s
     load = a**3 - transition * (a * s + square * math.atan2(s, a))
     return Cohesion(a, math.sqrt(square), load, a * a - _FOUR_THIRDS * transition * s)

@@ -3,31 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from attrs import field, frozen
 
 from ..errors import DescriptionError, InfeasibleError, PlanError
-from ..export.contents import Contents
+from ..scene.curve import Curve, Shown
 from ..scene.plan import check_scene
 from ..scene.scenes import SeparationScene
-from ..scene.tabular import Tabular, curve_contents
 from ..separation.effects.prepared import checked_liquid, prepare_scene
 from ..separation.effects.registry import AdhesiveContact
+from ..units import si
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..separation.effects.adhesion import AdhesionNumbers
 
-    Curve = NDArray[np.float64]
+    Floats = NDArray[np.float64]
 
 __all__ = ["AdhesionCurve", "adhesion_curve"]
 
 
 @frozen(eq=False)
-class AdhesionCurve(Tabular):
+class AdhesionCurve(Curve):
     """Adhesive contact of one sphere over its load; all arrays of one shape, read-only.
 
     Attributes
@@ -43,20 +43,31 @@ class AdhesionCurve(Tabular):
         Pull-off force, Tabor and Maugis parameters, and the gap at pull-off.
     """
 
-    load: Curve = field(repr=False)
-    approach: Curve = field(repr=False)
-    contact_radius: Curve = field(repr=False)
-    cohesive_radius: Curve = field(repr=False)
+    axis: ClassVar[str] = "load"
+    shown: ClassVar[Shown] = {
+        "radii": (("contact_radius", "cohesive_radius"), ""),
+        "load": (("load",), "approach"),
+    }
+    title: ClassVar[str] = "adhesive contact of a sphere"  # type: ignore[misc]
+
+    load: Floats = field(repr=False, metadata=si("N"))
+    approach: Floats = field(repr=False, metadata=si("m"))
+    contact_radius: Floats = field(repr=False, metadata=si("m"))
+    cohesive_radius: Floats = field(repr=False, metadata=si("m"))
     numbers: AdhesionNumbers
 
-    def contents(self) -> Contents:
-        """Return approach and radii over the load."""
-        lengths = ("approach", "contact_radius", "cohesive_radius")
-        columns = {"load": (self.load, "N")} | {n: (getattr(self, n), "m") for n in lengths}
-        return curve_contents("load", columns, "adhesive contact of a sphere")
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Curve.sources`."""
+        return AdhesiveContact(model=self.numbers.model).sources  # type: ignore[arg-type]
+
+    def scalars(self) -> dict[str, tuple[float, str]]:
+        """Return forces and gap at pull-off."""
+        names = {"pull_off_force": "N", "release_gap": "m", "release_force": "N"}
+        return {name: (getattr(self.numbers, name), unit) for name, unit in names.items()}
 
 
-def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Curve) -> AdhesionCurve:
+def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Floats) -> AdhesionCurve:
     r"""Contact radius and approach of an adhesive sphere over its load.
 
     Parameters

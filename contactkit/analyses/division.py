@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from attrs import astuple, field, frozen
 
 from ..capillary import many_menisci as menisci
 from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanError
-from ..export.contents import Contents
 from ..numerics.roots import bracketed_root
+from ..scene.curve import Curve
 from ..scene.plan import check_scene
 from ..scene.scenes import SeparationScene
-from ..scene.tabular import Tabular, curve_contents
 from ..separation.effects.registry import MeniscusForce, ViscousForce
+from ..units import si
 from .division_laws import SOURCES, DivisionLaw, Name, law_of
 
 if TYPE_CHECKING:
@@ -32,17 +32,17 @@ _AT_ONCE = 200  # numbers of menisci evaluated together
 
 
 @frozen(eq=False)
-class DivisionResult(Tabular):
+class DivisionResult(Curve):
     """Forces of one film divided into N equal menisci.
 
-    Curves are over `counts`, read-only. The best number minimises the sum of the forces in the
+    Curves are over `n_menisci`, read-only. The best number minimises the sum of the forces in the
     scene: the meniscus force at the start and the mean viscous force over the opening.
 
     Attributes
     ----------
     law : str
         ``exact``, ``arc`` or ``as-published``: one law for both forces.
-    counts : ndarray of int (n,)
+    n_menisci : ndarray of int (n,)
         Requested numbers of menisci that are stable.
     unstable : tuple of int
         Requested numbers of menisci that do not span the gap.
@@ -58,28 +58,38 @@ class DivisionResult(Tabular):
         Larger contact radius of one meniscus [m].
     """
 
+    axis: ClassVar[str] = "n_menisci"
+
     scene: SeparationScene = field(repr=False)
     law: Name
-    counts: NDArray[np.int64]
+    n_menisci: NDArray[np.int64] = field(metadata=si("-"))
     unstable: tuple[int, ...]
-    max_stable_count: int
-    best_count: int
-    best_force: float
-    limit_gap: Floats = field(repr=False)
-    contact_radius: Floats = field(repr=False)
+    max_stable_count: int = field(metadata=si("-"))
+    best_count: int = field(metadata=si("-"))
+    best_force: float = field(metadata=si("N"))
+    limit_gap: Floats = field(repr=False, metadata=si("m"))
+    contact_radius: Floats = field(repr=False, metadata=si("m"))
     _meniscus_force: Floats | None = field(repr=False)
     _viscous_force: Floats | None = field(repr=False)
 
-    def contents(self) -> Contents:
+    @property
+    def title(self) -> str:
+        """See `Curve.title`."""
+        return f"one film divided, law {self.law}"
+
+    @property
+    def message(self) -> str:
+        """See `Curve.message`."""
+        return (
+            f"division by the {self.law} law: best {self.best_count} menisci, {self.best_force:.4g}"
+            f" N in total; at most {self.max_stable_count} are stable"
+        )
+
+    def table(self) -> dict[str, tuple[Any, str]]:
         """Return the curves over the number of menisci, of the forces that the scene lists."""
-        columns: dict[str, tuple[Any, str]] = {
-            "count": (self.counts, "-"),
-            "limit_gap": (self.limit_gap, "m"),
-            "contact_radius": (self.contact_radius, "m"),
-        }
         forces = {"meniscus_force": self._meniscus_force, "viscous_force": self._viscous_force}
-        columns |= {name: (one, "N") for name, one in forces.items() if one is not None}
-        return curve_contents("count", columns, f"one film divided, law {self.law}")
+        known = {name: (one, "N") for name, one in forces.items() if one is not None}
+        return super().table() | known
 
     @property
     def meniscus_force(self) -> Floats:
@@ -105,12 +115,12 @@ class DivisionResult(Tabular):
         rim = self.scene.interface.rim_radius
         if math.isinf(rim):
             raise NotSimulatedError("the coverage needs the radius [m] of a Flat face")
-        return np.asarray(menisci.coverage(self.counts, self.contact_radius, math.pi * rim**2))
+        return np.asarray(menisci.coverage(self.n_menisci, self.contact_radius, math.pi * rim**2))
 
     @property
     def overlaps(self) -> NDArray[np.bool_]:
         """Whether the menisci overlap on the face in any arrangement."""
-        max_count = np.where(self.counts > 1, menisci.MAX_COVERAGE, 1.0)
+        max_count = np.where(self.n_menisci > 1, menisci.MAX_COVERAGE, 1.0)
         # One film that fills the face to the rim does not overlap.
         return np.asarray(self.coverage > max_count * (1.0 + 1e-9))
 
@@ -120,14 +130,11 @@ class DivisionResult(Tabular):
         return (SOURCES[self.law],)
 
     def __str__(self) -> str:
-        return (
-            f"division by the {self.law} law: best {self.best_count} menisci, {self.best_force:.4g}"
-            f" N in total; at most {self.max_stable_count} are stable"
-        )
+        return self.message
 
 
 def divide_meniscus(
-    scene: SeparationScene, counts: Sequence[int] | None = None, *, law: Name | None = None
+    scene: SeparationScene, n_menisci: Sequence[int] | None = None, *, law: Name | None = None
 ) -> DivisionResult:
     r"""Divide the liquid between two flats into N equal menisci, at constant volume.
 
@@ -138,7 +145,7 @@ def divide_meniscus(
         either the time or the speed of the opening. The effects `MeniscusForce` and `ViscousForce`
         select the forces; the viscous force acts up to rupture of the menisci or the final gap,
         whichever is smaller.
-    counts : sequence of int, optional
+    n_menisci : sequence of int, optional
         Numbers of menisci of the curves. None: up to 61 from 1 to the maximum stable number, in
         geometric progression.
     law : {"exact", "arc", "as-published"}, optional
@@ -187,7 +194,7 @@ def divide_meniscus(
             f"no meniscus spans the initial gap of {made.gap:g} m: this volume reaches "
             f"{float(made.limit(np.asarray(volume))):g} m at most"
         )
-    requested = _requested(counts, max_count)
+    requested = _requested(n_menisci, max_count)
     stable = np.array([n for n in requested if n <= max_count], dtype=np.int64)
     best, force = _best(made, volume, max_count)
     volumes = volume / stable
@@ -231,7 +238,9 @@ def _requested(counts: Sequence[int] | None, max_count: int) -> list[int]:
         return sorted({round(x) for x in np.geomspace(1.0, max_count, 61)})
     for n in counts:
         if isinstance(n, bool) or int(n) != n or n < 1:
-            raise DescriptionError("divide_meniscus(counts)", n, "hold whole numbers of at least 1")
+            raise DescriptionError(
+                "divide_meniscus(n_menisci)", n, "hold whole numbers of at least 1"
+            )
     return [int(n) for n in counts]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeVar
 
 import numpy as np
 from attrs import evolve, field, frozen
@@ -15,13 +15,13 @@ from ..contact.effects.base import Attraction, Contact
 from ..contact.effects.island_bridges import IslandBridges
 from ..contact.result import ContactResult
 from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanError
-from ..export.contents import Contents
 from ..liquids.liquid import LiquidState
+from ..scene.curve import Curve, Shown
 from ..scene.meniscus import Meniscus
 from ..scene.scenes import SeparationScene
-from ..scene.tabular import Tabular, curve_contents
 from ..separation.effects.asperities import AsperityMenisci
 from ..separation.effects.prepared import prepare_scene
+from ..units import si
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -45,7 +45,7 @@ class _Point(NamedTuple):
 
 
 @frozen(eq=False)
-class HumidityCurve(Tabular):
+class HumidityCurve(Curve):
     """Meniscus force against humidity; arrays (n,), read-only.
 
     Attributes
@@ -64,31 +64,35 @@ class HumidityCurve(Tabular):
         Number of menisci [-].
     """
 
+    axis: ClassVar[str] = "relative_humidity"
+    shown: ClassVar[Shown] = {"force": (("force",), "")}
+
     law: str
-    relative_humidity: Floats = field(repr=False)
-    kelvin_radius: Floats = field(repr=False)
-    meniscus_height: Floats = field(repr=False)
-    pressure: Floats = field(repr=False)
-    force: Floats = field(repr=False)
-    n_menisci: Floats = field(repr=False)
+    relative_humidity: Floats = field(repr=False, metadata=si("-"))
+    kelvin_radius: Floats = field(repr=False, metadata=si("m"))
+    meniscus_height: Floats = field(repr=False, metadata=si("m"))
+    pressure: Floats = field(repr=False, metadata=si("Pa"))
+    force: Floats = field(repr=False, metadata=si("N"))
+    n_menisci: Floats = field(repr=False, metadata=si("-"))
     _volume: Floats | None = field(repr=False)
     _circles: Floats | None = field(repr=False)
     _largest: Floats | None = field(repr=False)
     _area: float | None = field(repr=False)
 
-    def contents(self) -> Contents:
+    @property
+    def title(self) -> str:
+        """See `Curve.title`."""
+        return f"humidity curve, law {self.law}"
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Curve.sources`."""
+        return ("Kelvin's equation; Thomson 1871", self.law)
+
+    def table(self) -> dict[str, tuple[Any, str]]:
         """Return the arrays over the humidity, those that the law knows."""
-        columns = {
-            "relative_humidity": (self.relative_humidity, "-"),
-            "kelvin_radius": (self.kelvin_radius, "m"),
-            "meniscus_height": (self.meniscus_height, "m"),
-            "pressure": (self.pressure, "Pa"),
-            "force": (self.force, "N"),
-            "n_menisci": (self.n_menisci, "-"),
-        }
-        if self._volume is not None:
-            columns["volume"] = (self._volume, "m3")
-        return curve_contents("relative_humidity", columns, f"humidity curve, law {self.law}")
+        volume = {} if self._volume is None else {"volume": (self._volume, "m3")}
+        return super().table() | volume
 
     @property
     def volume(self) -> Floats:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 from attrs import evolve, field, frozen
@@ -14,12 +14,10 @@ from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
 from ..contact.work import ContactWork
 from ..errors import DescriptionError, NotSimulatedError
-from ..export.contents import Contents
 from ..frozen import FrozenDict
+from ..scene.curve import Curve, Shown
 from ..scene.plan import check_plan
-from ..scene.tabular import Tabular, curve_contents
-from ..units import si
-from ..validity import warn
+from ..validity import ValidityNumber, note_worst, warn
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -37,46 +35,76 @@ _ARGUMENTS = {
 
 
 @frozen(eq=False)
-class LoadCurve(Tabular):
+class LoadCurve(Curve):
     """Numbers of a contact over its load, in the order in which they were given; arrays (n,).
 
     Attributes
     ----------
-    load, mean_pressure : ndarray
-        Force that the contact carries [N], and over the window [Pa].
-    approach : ndarray
-        Rigid-body approach from first touch [m].
-    contact_area : ndarray
-        Real area of contact [m2], as a count of pixels.
-    max_pressure : ndarray
-        Maximum of the pressure [Pa].
-    applications : ndarray of int
-        Applications of the operator on the full grid that each point took.
-    seconds : ndarray
-        Wall time of each point [s].
     columns : mapping of str to ndarray
         Every number of `ContactResult.scalars` at all points; nan where one lacks it.
     units : mapping of str to str
         Unit of each column.
+    applications : ndarray of int
+        Applications of the operator on the full grid that each point took.
+    seconds : ndarray
+        Wall time of each point [s].
+    plan : ContactPlan
+        What was solved, without its preparation.
+    validity : tuple of ValidityNumber
+        The worst of each number over all points.
     """
 
-    load: Floats = field(metadata=si("N"))
-    mean_pressure: Floats = field(metadata=si("Pa"))
-    approach: Floats = field(metadata=si("m"))
-    contact_area: Floats = field(metadata=si("m2"))
-    max_pressure: Floats = field(metadata=si("Pa"))
-    applications: Counts = field(metadata=si("-"))
-    seconds: Floats = field(metadata=si("s"))
+    axis: ClassVar[str] = "load"
+    shown: ClassVar[Shown] = {
+        "area": (("contact_area",), ""),
+        "pressure": (("max_pressure",), ""),
+        "load": (("load",), "approach"),
+    }
+    title: ClassVar[str] = "load curve"  # type: ignore[misc]
+
     columns: Mapping[str, Floats] = field(repr=False)
     units: Mapping[str, str] = field(repr=False)
+    applications: Counts = field(repr=False)
+    seconds: Floats = field(repr=False)
+    plan: ContactPlan = field(repr=False)
+    validity: tuple[ValidityNumber, ...] = field(repr=False)
     _results: tuple[ContactResult, ...] | None = field(repr=False)
 
-    def contents(self) -> Contents:
-        """Return all columns along the load, in the order given, with the cost of each point."""
-        columns: dict[str, tuple[NDArray[Any], str]]
+    @property
+    def load(self) -> Floats:
+        """Force that the contact carries [N]."""
+        return self.columns["load"]
+
+    @property
+    def mean_pressure(self) -> Floats:
+        """The same over the window [Pa]."""
+        return self.columns["mean_pressure"]
+
+    @property
+    def approach(self) -> Floats:
+        """Rigid-body approach from first touch [m]."""
+        return self.columns["approach"]
+
+    @property
+    def contact_area(self) -> Floats:
+        """Real area of contact [m2], as a count of pixels."""
+        return self.columns["contact_area"]
+
+    @property
+    def max_pressure(self) -> Floats:
+        """Maximum of the pressure [Pa]."""
+        return self.columns["max_pressure"]
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Curve.sources`."""
+        return tuple(self.plan.cite().splitlines())
+
+    def table(self) -> dict[str, tuple[Any, str]]:
+        """Return all columns in the order given, with the cost of each point."""
+        columns: dict[str, tuple[Any, str]]
         columns = {name: (values, self.units[name]) for name, values in self.columns.items()}
-        columns |= {"applications": (self.applications, "-"), "seconds": (self.seconds, "s")}
-        return curve_contents("load", columns, "load curve")
+        return columns | {"applications": (self.applications, "-"), "seconds": (self.seconds, "s")}
 
     @property
     def results(self) -> tuple[ContactResult, ...]:
@@ -170,14 +198,16 @@ def load_curve(
         plan = evolve(plan, accuracy=evolve(plan.accuracy, rtol=rtol))
     plans = [plan.with_loading(loading_of(name, value)) for value in values]
     chain, points, warned = ContactChain(), dict[int, _Point](), set[str]()
+    worst: dict[str, ValidityNumber] = {}
     for done, i in enumerate(downwards(values, plan.scene), start=1):
         result = chain.solve(plans[i])
         warn(one for one in result.validity if one.is_valid is False and one.name not in warned)
+        note_worst(worst, result.validity)
         warned |= {one.name for one in result.validity if one.is_valid is False}
         points[i] = _Point(result.scalars(), result.work, result if keep_maps else None)
         if progress is not None:
             progress(done / len(values))
-    return _curve([points[i] for i in range(len(values))])
+    return _curve(plan, [points[i] for i in range(len(values))], worst)
 
 
 class _Point(NamedTuple):
@@ -216,7 +246,9 @@ def _series(
     return name, [float(value) for value in made]
 
 
-def _curve(points: list[_Point]) -> LoadCurve:
+def _curve(
+    plan: ContactPlan, points: list[_Point], worst: Mapping[str, ValidityNumber]
+) -> LoadCurve:
     units = {name: unit for point in points for name, (_, unit) in point.scalars.items()}
 
     def column(name: str) -> Floats:
@@ -226,14 +258,11 @@ def _curve(points: list[_Point]) -> LoadCurve:
     columns = FrozenDict({name: column(name) for name in units})
     results = tuple(point.result for point in points if point.result is not None)
     return LoadCurve(
-        load=columns["load"],
-        mean_pressure=columns["mean_pressure"],
-        approach=columns["approach"],
-        contact_area=columns["contact_area"],
-        max_pressure=columns["max_pressure"],
-        applications=np.array([point.work.n_operator_applications for point in points]),
-        seconds=np.array([point.work.seconds for point in points]),
         columns=columns,
         units=FrozenDict(units),
+        applications=np.array([point.work.n_operator_applications for point in points]),
+        seconds=np.array([point.work.seconds for point in points]),
+        plan=plan.without_preparation(),
+        validity=tuple(worst.values()),
         results=results or None,
     )

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from attrs import field, frozen
@@ -14,11 +14,10 @@ from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
 from ..contact.solve import solve_unwarned
 from ..errors import DescriptionError
-from ..export.contents import Contents, Quantity
+from ..scene.curve import Curve
 from ..scene.loading import Approach
 from ..scene.plan import check_plan
-from ..scene.tabular import Tabular
-from ..validity import ValidityNumber, warn
+from ..validity import ValidityNumber, note_worst, warn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -42,9 +41,16 @@ _COLUMNS = (
     ("attracted_area", "m2"),
     ("elastic_energy", "J"),
     ("adhesive_energy", "J"),
-    ("loss", "J"),
+    ("dissipated_energy", "J"),
     ("n_contacts", "-"),
     ("n_applications", "-"),
+)
+_SCALARS = (
+    ("pull_off_force", "N"),
+    ("pull_off_approach", "m"),
+    ("pull_on_force", "N"),
+    ("loop_energy", "J"),
+    ("loop_error", "J"),
 )
 
 
@@ -59,8 +65,9 @@ class AdhesiveBranch(NamedTuple):
         Area in contact, and in contact or apart by less than the range [m2].
     elastic_energy, adhesive_energy : ndarray
         [J]
-    loss : ndarray
-        Energy lost since the state before [J], by the trapezoidal rule for the work of the load.
+    dissipated_energy : ndarray
+        Energy dissipated since the state before [J], by the trapezoidal rule for the work of the
+        load.
     n_contacts, n_applications : ndarray
         Contacts solved, and applications of the operator on the full grid.
     """
@@ -71,7 +78,7 @@ class AdhesiveBranch(NamedTuple):
     attracted_area: Floats
     elastic_energy: Floats
     adhesive_energy: Floats
-    loss: Floats
+    dissipated_energy: Floats
     n_contacts: NDArray[np.int64]
     n_applications: NDArray[np.int64]
 
@@ -93,7 +100,7 @@ class Jump(NamedTuple):
 
 
 @frozen(eq=False)
-class PullOffCurve(Tabular):
+class PullOffCurve(Curve):
     """Approach and separation of a contact under adhesion at imposed approaches.
 
     Attributes
@@ -109,24 +116,42 @@ class PullOffCurve(Tabular):
         tension at the end of the separation over the pull-off force [-].
     """
 
+    axis: ClassVar[str] = "state"
+
     approaching: AdhesiveBranch = field(repr=False)
     separating: AdhesiveBranch = field(repr=False)
     jumps: tuple[Jump, ...]
     plan: ContactPlan = field(repr=False)
     validity: tuple[ValidityNumber, ...] = field(repr=False)
 
-    def contents(self) -> Contents:
+    @property
+    def title(self) -> str:
+        """See `Curve.title`."""
+        return self.plan.title
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Curve.sources`."""
+        return tuple(self.plan.cite().splitlines())
+
+    @property
+    def parts(self) -> Mapping[str, Any]:
+        """See `Curve.parts`."""
+        return {name: getattr(self, name) for name in ("approaching", "separating", "jumps")}
+
+    def table(self) -> dict[str, tuple[Any, str]]:
         """Return both branches, one after the other: ``separating`` marks the second."""
-        both, axis = (self.approaching, self.separating), ("state",)
-        columns = {
-            name: Quantity(axis, np.concatenate([getattr(b, name) for b in both]), unit)
+        both = (self.approaching, self.separating)
+        columns: dict[str, tuple[Any, str]] = {
+            name: (np.concatenate([getattr(b, name) for b in both]), unit)
             for name, unit in _COLUMNS
         }
         separating = np.repeat([False, True], [one.load.size for one in both])
-        columns["separating"] = Quantity(
-            axis, separating, "-", "whether the bodies are pulled apart"
-        )
-        return Contents(axis, columns, {"title": self.plan.title})
+        return columns | {"separating": (separating, "-")}
+
+    def scalars(self) -> dict[str, tuple[float, str]]:
+        """Return the numbers of the whole path, each with its unit."""
+        return {name: (getattr(self, name), unit) for name, unit in _SCALARS}
 
     @property
     def pull_off_force(self) -> float:
@@ -165,7 +190,7 @@ class PullOffCurve(Tabular):
     def loop_error(self) -> float:
         """Size of the error of `loop_energy` [J]: energy that steps gain, which none can."""
         both = (self.approaching, self.separating)
-        return -sum(float(np.minimum(one.loss, 0.0).sum()) for one in both)
+        return -sum(float(np.minimum(one.dissipated_energy, 0.0).sum()) for one in both)
 
     @property
     def is_closed(self) -> bool:
@@ -203,7 +228,7 @@ _Run = Callable[[float, _State | None], _State]
 
 
 def pull_off_curve(
-    plan: ContactPlan, approaches: Sequence[float] | ArrayLike, *, refinements: int = 6
+    plan: ContactPlan, approaches: Sequence[float] | ArrayLike, *, n_refinements: int = 6
 ) -> PullOffCurve:
     r"""Follow a contact under adhesion through an approach and the separation after it.
 
@@ -222,16 +247,16 @@ def pull_off_curve(
     approaches : array_like, shape (n,)
         Rigid-body approaches from first touch [m], rising; the separation passes them in reverse
         order. Bodies apart have a negative one.
-    refinements : int
+    n_refinements : int
         How many times a step with a loss is halved at most: a jump is located to the step over
-        ``2**refinements``.
+        ``2**n_refinements``.
 
     Raises
     ------
     NotSimulatedError
         If the scene does not list `Adhesion`.
     DescriptionError
-        If the approaches are fewer than two, or do not rise, or `refinements` is no whole number.
+        If the approaches are fewer than two, or do not rise, or `n_refinements` is no whole number.
     ConvergenceError
         If a state does not converge.
 
@@ -271,9 +296,9 @@ def pull_off_curve(
     """
     check_plan(plan, ContactPlan)
     adhesion = plan.listed(Adhesion)
-    if isinstance(refinements, bool) or not isinstance(refinements, int) or refinements < 0:
+    if isinstance(n_refinements, bool) or not isinstance(n_refinements, int) or n_refinements < 0:
         raise DescriptionError(
-            "pull_off_curve(refinements)", refinements, "be a whole number of at least 0"
+            "pull_off_curve(n_refinements)", n_refinements, "be a whole number of at least 0"
         )
     levels = _checked(approaches)
     worst: dict[str, ValidityNumber] = {}
@@ -281,16 +306,16 @@ def pull_off_curve(
     def run(approach: float, before: _State | None) -> _State:
         made = plan.with_loading(Approach(approach=approach))
         result = solve_unwarned(made, start=before.result if before is not None else None)
-        _note(worst, result.validity)
+        note_worst(worst, (one for one in result.validity if one.name != _PASSING))
         return _state(result)
 
     # A mean plane that is held lifts one place where another is drawn in.
     is_held = plan.grid.periodic and not plan.prepared.solver.uniform_compliance
     longest = _LONGEST * adhesion.law.range if is_held else None
     up, jumps_up = _followed(
-        run, run(levels[0], None), levels[1:], "approach", refinements, longest
+        run, run(levels[0], None), levels[1:], "approach", n_refinements, longest
     )
-    down, jumps_down = _followed(run, up[-1], levels[-2::-1], "separation", refinements, longest)
+    down, jumps_down = _followed(run, up[-1], levels[-2::-1], "separation", n_refinements, longest)
     found = (*worst.values(), _left(down))
     warn(found)
     return PullOffCurve(
@@ -331,16 +356,6 @@ def _state(result: ContactResult) -> _State:
     )
 
 
-def _note(worst: dict[str, ValidityNumber], found: Sequence[ValidityNumber]) -> None:
-    """Keep the worst of each number."""
-    for one in found:
-        kept = worst.get(one.name)
-        if one.name == _PASSING:
-            continue
-        if kept is None or kept.value is None or _is_worse(one, kept):
-            worst[one.name] = one
-
-
 def _left(separating: Sequence[_State]) -> ValidityNumber:
     """How much of the pull-off force still acts where the separation ends."""
     pull_off = -min(one.load for one in separating)
@@ -352,14 +367,6 @@ def _left(separating: Sequence[_State]) -> ValidityNumber:
         "it: let the approaches begin further apart"
         if pull_off > 0.0
         else "nothing pulls",
-    )
-
-
-def _is_worse(one: ValidityNumber, kept: ValidityNumber) -> bool:
-    if one.value is None or kept.value is None:
-        return False
-    return max(one.value - one.high, one.low - one.value) > max(
-        kept.value - kept.high, kept.low - kept.value
     )
 
 
@@ -391,7 +398,7 @@ def _followed(
     first: _State,
     approaches: Sequence[float],
     branch: Literal["approach", "separation"],
-    refinements: int,
+    n_refinements: int,
     longest: float | None,
 ) -> tuple[list[_State], list[Jump]]:
     """States of a branch, and its jumps; the maps of all but the last state are given up."""
@@ -399,7 +406,7 @@ def _followed(
     for approach in approaches:
         before = states[-1]
         after = run(approach, before)
-        between, found = _refined(run, before, after, refinements, longest)
+        between, found = _refined(run, before, after, n_refinements, longest)
         states[-1] = _without_maps(before)
         states += [*map(_without_maps, between[:-1]), between[-1]]
         jumps += [
@@ -460,7 +467,9 @@ def _branch(states: Sequence[_State]) -> AdhesiveBranch:
     names = AdhesiveBranch._fields
     losses = [0.0, *(_loss(a, b) for a, b in pairwise(states))]
     columns = {
-        name: np.array(losses if name == "loss" else [getattr(s, name) for s in states])
+        name: np.array(
+            losses if name == "dissipated_energy" else [getattr(s, name) for s in states]
+        )
         for name in names
     }
     for column in columns.values():

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
-from ..export.contents import Contents
 from ..numerics.roots import bracketed_root
-from ..scene.tabular import Tabular, curve_contents
+from ..scene.curve import Curve
 from ..units import si
 from ..validators import Described, friction_coefficient, non_negative, optional, positive, refuse
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    Curve = NDArray[np.float64]
+    Floats = NDArray[np.float64]
 
 __all__ = ["SlipEvent", "SpringSlider", "StickSlip", "stick_slip"]
 
@@ -141,7 +141,7 @@ class SlipEvent(NamedTuple):
 
 
 @frozen(eq=False)
-class StickSlip(Tabular):
+class StickSlip(Curve):
     """Force of the spring over time, and the slips of the block; arrays are read-only.
 
     Attributes
@@ -163,23 +163,27 @@ class StickSlip(Tabular):
         Largest force of the spring [N]; with inertia slightly above static friction.
     """
 
-    slider: SpringSlider
-    time: Curve = field(repr=False)
-    force: Curve = field(repr=False)
-    displacement: Curve = field(repr=False)
-    events: tuple[SlipEvent, ...] = field(repr=False)
-    stick_time: float
-    slip_time: float
-    largest_force: float
+    axis: ClassVar[str] = "point"
+    title: ClassVar[str] = "stick-slip"  # type: ignore[misc]
 
-    def contents(self) -> Contents:
-        """Return force and displacement along the points of the curve."""
-        columns = {
-            "time": (self.time, "s"),
-            "force": (self.force, "N"),
-            "displacement": (self.displacement, "m"),
-        }
-        return curve_contents("point", columns, "stick-slip")
+    slider: SpringSlider
+    time: Floats = field(repr=False, metadata=si("s"))
+    force: Floats = field(repr=False, metadata=si("N"))
+    displacement: Floats = field(repr=False, metadata=si("m"))
+    events: tuple[SlipEvent, ...] = field(repr=False)
+    stick_time: float = field(metadata=si("s"))
+    slip_time: float = field(metadata=si("s"))
+    largest_force: float = field(metadata=si("N"))
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Curve.sources`."""
+        return ("Rabinowicz, Friction and Wear of Materials, 1965",)
+
+    @property
+    def parts(self) -> Mapping[str, Any]:
+        """See `Curve.parts`."""
+        return {"events": self.events}
 
     @property
     def period(self) -> float:
@@ -206,15 +210,15 @@ class StickSlip(Tabular):
 class _Cycle(NamedTuple):
     """Times [s], forces [N] and slips [m] of one slip, and its numbers."""
 
-    time: Curve
-    force: Curve
-    slip: Curve
+    time: Floats
+    force: Floats
+    slip: Floats
     end_force: float
     top_force: float
     top_speed: float
 
 
-def stick_slip(slider: SpringSlider, slips: int = 5) -> StickSlip:
+def stick_slip(slider: SpringSlider, n_slips: int = 5) -> StickSlip:
     r"""Motion of a spring-driven block with a lower friction in motion than at rest.
 
     From a relaxed spring the block sticks until the force reaches F_s = mu_s P, then slips against
@@ -239,7 +243,7 @@ def stick_slip(slider: SpringSlider, slips: int = 5) -> StickSlip:
     ----------
     slider : SpringSlider
         Block, spring and friction.
-    slips : int
+    n_slips : int
         Number of slips to follow.
 
     Returns
@@ -250,7 +254,7 @@ def stick_slip(slider: SpringSlider, slips: int = 5) -> StickSlip:
     Raises
     ------
     DescriptionError
-        If `slider` is no `SpringSlider`, or `slips` not a whole number of at least 1.
+        If `slider` is no `SpringSlider`, or `n_slips` not a whole number of at least 1.
 
     Notes
     -----
@@ -276,16 +280,16 @@ def stick_slip(slider: SpringSlider, slips: int = 5) -> StickSlip:
     '0.400 s, 0.01003 s, 0.100 N'
     """
     _check_slider(slider)
-    if isinstance(slips, bool) or not isinstance(slips, int) or slips < 1:
-        raise DescriptionError("stick_slip(slips)", slips, "be a whole number of at least 1")
+    if isinstance(n_slips, bool) or not isinstance(n_slips, int) or n_slips < 1:
+        raise DescriptionError("stick_slip(n_slips)", n_slips, "be a whole number of at least 1")
     k, speed = slider.total_stiffness, slider.speed
     begin = slider.static_friction
     cycle = _cycle(slider)
     if cycle is None:
-        return _steady(slider, slips)
+        return _steady(slider, n_slips)
     times, forces, moved = [np.zeros(1)], [np.zeros(1)], [np.zeros(1)]
     events, now, force, place = [], 0.0, 0.0, 0.0
-    for _ in range(slips):
+    for _ in range(n_slips):
         start = now + (begin - force) / (k * speed)
         end = start + float(cycle.time[-1])
         times.append(start + cycle.time)
@@ -341,7 +345,7 @@ def _with_inertia(slider: SpringSlider) -> _Cycle:
     )
 
 
-def _speed_and_rate(slider: SpringSlider, time: Curve) -> tuple[Curve, Curve]:
+def _speed_and_rate(slider: SpringSlider, time: Floats) -> tuple[Floats, Floats]:
     """Speed and acceleration of a block with a mass and a drag, from the start of its slip."""
     m, v = slider.mass, slider.speed
     b, square = 0.5 * slider.damping / m, slider.total_stiffness / m
@@ -382,7 +386,7 @@ def _with_drag(slider: SpringSlider) -> _Cycle | None:
     return _Cycle(time, force, slip, float(force[-1]), peak, top_speed)
 
 
-def _settling(slider: SpringSlider) -> tuple[Curve, Curve]:
+def _settling(slider: SpringSlider) -> tuple[Floats, Floats]:
     """Times and forces of a slip that ends in steady sliding."""
     high, low, v = slider.static_friction, slider.kinetic_friction, slider.speed
     m, k, c = slider.mass, slider.total_stiffness, slider.damping
@@ -398,12 +402,12 @@ def _settling(slider: SpringSlider) -> tuple[Curve, Curve]:
     return time, low + c * speed + m * rate
 
 
-def _steady(slider: SpringSlider, slips: int) -> StickSlip:
+def _steady(slider: SpringSlider, n_slips: int) -> StickSlip:
     """Motion of a block that sticks once and then slides steadily."""
     high, k, v = slider.static_friction, slider.total_stiffness, slider.speed
     first = high / (k * v)
     later, settling = _settling(slider)
-    last = first * (slips if first else 1) + (0.0 if first else 1.0)
+    last = first * (n_slips if first else 1) + (0.0 if first else 1.0)
     time = np.concatenate([[0.0], first + later, [first + later[-1] + last]])
     force = np.concatenate([[0.0], settling, settling[-1:]])
     slip = v * (time - first) - (force - high) / k

@@ -117,7 +117,7 @@ def write_crosscheck(
     fmus : bool
         Build the FMUs too, which needs a C compiler.
     platforms, compiler : optional
-        See `native_build.build_native`.
+        See `contactkit.fmu.native.build.build_native`.
 
     Returns
     -------

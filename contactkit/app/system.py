@@ -76,7 +76,7 @@ def write_system(
     step : float, optional
         Communication step [s]; that of the scene if not given.
     platforms, compiler : optional
-        Of native FMUs, see `native_build.build_native`.
+        Of native FMUs, see `contactkit.fmu.native.build.build_native`.
 
     Returns
     -------

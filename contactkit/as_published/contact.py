@@ -16,7 +16,9 @@ from .printed import contact as printed
 
 __all__ = ["CONTACT_ROWS"]
 
-_REACH = 17.0  # correlation lengths, to 1e-17 of the autocorrelation
+# Correlation lengths (of the decay to a tenth, Eq. 2.42) up to which repetitions are summed: what
+# is left out is below 1e-17. The number of terms grows with its square.
+_REACH = 17.0
 _FIT = "1 + (H1/H2 - 1) exp(-(u/h)^m (E1/E2)^n (H1/H2)^p)"
 
 

@@ -23,7 +23,9 @@ def cost_report(found: WorkPrecision, out: Path | None, error: float, name: str)
         )
     except InfeasibleError as problem:
         advice = str(problem)
-    scalars: dict[str, tuple[Any, str]] = {found.quantity: (found.reference, "s")}
+    scalars: dict[str, tuple[Any, str]] = {}
+    if not found.judge:
+        scalars[found.quantity] = (found.reference, "s")
     for point in found.points:
         key = f"{point.method} / {point.label}"
         scalars |= {f"{key} / error": (point.error, "-"), f"{key} / seconds": (point.seconds, "s")}

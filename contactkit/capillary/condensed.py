@@ -23,8 +23,13 @@ __all__ = ["condensed_bridges", "max_gap_on_sphere"]
 
 Array = NDArray[np.float64]
 
-_MARGIN = 0.005  # of the maximum gap: closer to it the bridge itself is solved
-_DECADES = 0.25  # between the entries of the table, whose error is at most 0.2 %
+# Of the maximum gap, by which the table is not trusted: spheres nearer to it are solved. It has to
+# exceed the error of the table (with 0 two of 2209 bridges were missed); those just beyond the
+# limit are dear, as each is looked for in vain: 0.02 took twice the time.
+_MARGIN = 0.005
+# Between the entries of the table, in decades of pressure over curvature: an error of 0.15 %,
+# against 0.05 % with half and 0.9 % with double the step. An entry takes a tenth of a second.
+_DECADES = 0.25
 
 
 def max_gap_on_sphere(
@@ -117,6 +122,7 @@ def _immersed_error(pressure: float, curvature: Array) -> InfeasibleError:
 
 def _relative_max_gap(ratio: Array, angle_lower: float, angle_upper: float) -> Array:
     """Maximum gap over the height of a thin meniscus, for pressures over curvature."""
+    # At fixed decades, not between the extremes: entries are cached over calls and angles.
     log = np.log10(ratio)
     low, high = math.floor(log.min() / _DECADES), math.ceil(log.max() / _DECADES)
     nodes = np.arange(low, high + 1) * _DECADES

@@ -11,7 +11,9 @@ from .arc import flat as arc_flat
 
 __all__ = ["volume_of_radius"]
 
-_FACTOR = 1.3  # by which a volume is changed in search of a bracket
+# By which a volume is changed in search of a bracket: the arc is a close guess. 1.1 to 4 take the
+# same number of bridges, 37 to 41 for three radii.
+_FACTOR = 1.3
 
 
 def volume_of_radius(

@@ -180,9 +180,8 @@ def thin_film_force(
     0.0
     """
     open_fraction = 1.0 - gap / height
-    open_fraction = 0.5 * (
-        open_fraction + abs(open_fraction)
-    )  # positive part, of a float or an array
+    # positive part, of a float or an array
+    open_fraction = 0.5 * (open_fraction + abs(open_fraction))
     return 2.0 * math.pi * sphere_radius * surface_tension * wetting * open_fraction
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -31,7 +32,15 @@ def cost(
 ) -> None:
     """Measure error against computing time for a scene.
 
-    SCENE is a scene file, or the name of a scene of contactkit.
+    SCENE is a scene file, or the name of a scene or of an accuracy study of contactkit.
     """
     job = Job("cost", scene, settings, out, overwrite, as_json)
-    run_job(job, lambda opened, progress: opened.cost(out, progress, error))
+    study = None if settings else _study(scene)
+    run_job(job, lambda opened, progress: opened.cost(out, progress, error), opened=study)
+
+
+def _study(name: str) -> Any:
+    """An accuracy study of that name, if there is one; a scene has the name otherwise."""
+    from ..benchmarks.table import STUDIES
+
+    return STUDIES.get(name)

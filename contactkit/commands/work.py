@@ -42,10 +42,11 @@ def run_job(
     call: Callable[[Opened, Callable[[float], None]], Report],
     *,
     page: bool = False,
+    opened: Opened | None = None,
 ) -> None:
     """Run a command on a scene, print its report, and write a page about it if that is wanted."""
     with _output(job) as folder:
-        opened = load(job.scene, job.settings)
+        opened = opened or load(job.scene, job.settings)
         with progress(f"{job.command} {opened.name}") as update:
             report = call(opened, update)
         show(report, job.as_json)

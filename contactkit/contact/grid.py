@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
+from weakref import WeakKeyDictionary
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
@@ -126,13 +126,20 @@ def _agree(given: float | None, own: float, field: str) -> None:
 
 
 def _measured(surface: Measured) -> Heights:
-    """Read a map once for as long as its file does not change."""
+    """Read a map once for as long as a scene has it and its file does not change."""
     path = Path(surface.path)
-    return _read(surface, path.stat().st_mtime_ns if path.exists() else 0)
+    changed = path.stat().st_mtime_ns if path.exists() else 0
+    known = _MAPS.get(surface)
+    if known is None or known[0] != changed:
+        known = _MAPS[surface] = changed, _read(surface)
+    return known[1]
 
 
-@lru_cache(maxsize=4)
-def _read(surface: Measured, changed: int) -> Heights:
+# A map of 4096 x 4096 pixels takes 134 MB: it goes with the last scene that has the surface.
+_MAPS: WeakKeyDictionary[Measured, tuple[int, Heights]] = WeakKeyDictionary()
+
+
+def _read(surface: Measured) -> Heights:
     from ..roughness.height_maps import detrended, read_height_map
 
     found = read_height_map(

@@ -33,6 +33,7 @@ __all__ = ["effective_hardness", "effective_hardness_literal", "layer_on_substra
 Array = NDArray[np.float64]
 Values = Sequence[float] | Array
 
+# Exponents m, n, p of Eq. (2.41) for a hard layer on a soft material and the reverse, as printed.
 _HARD_ON_SOFT = (1.1, -0.5, 0.1)
 _SOFT_ON_HARD = (1.8, -0.9, 1.0)
 _PLATEAU = 0.3  # fraction of a thickness up to which the source takes the layer alone

@@ -50,8 +50,13 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-BLOCK = 8192  # wavenumbers per block: some thirty arrays of this length stay in the cache
-MANY_LAYERS = 6  # from here on it pays to sort the wavenumbers, most of which occur twice
+# Wavenumbers per block: some thirty arrays of this length stay in the cache. 1024 take 2.5 times
+# (calls), all of half a million at once twice as long; 4096 to 65536 the same.
+BLOCK = 8192
+# From here on it pays to sort the wavenumbers, most of which occur twice. On a square map of 400
+# pixels it does from 3 layers on (16 against 19 ms, with 8 layers 23 against 45); where the sides
+# of a map differ fewer wavenumbers are equal.
+MANY_LAYERS = 6
 
 
 class Compliance(NamedTuple):
@@ -296,6 +301,7 @@ def _of_squares(
     along_y: NDArray[np.int_], along_x: NDArray[np.int_], k: float, stack: Stack
 ) -> Array:
     """C at k sqrt(i^2 + j^2), each sum of squares evaluated once; zero at the origin."""
+    # Integers: equal wavenumbers are found exactly and without sorting.
     squares = (along_y * along_y)[:, None] + along_x * along_x
     met = np.zeros(squares[-1, -1] + 1, dtype=bool)
     met[squares] = True

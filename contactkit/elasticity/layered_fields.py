@@ -159,6 +159,8 @@ def unit_stresses(states: PlaneStates) -> UnitStresses:
 def _descended(
     alpha: Array, stack: Stack, planes: list[PlaneAt], cutoff: float
 ) -> Iterator[PlaneStates]:
+    # Upward once for all planes, downward from plane to plane: the cost is that of the layers plus
+    # one part of a layer for each plane, not their product.
     tops = np.concatenate([[0.0], np.cumsum(stack.h)])
     bottoms = _bottoms(alpha, stack, [_reached(alpha, z, cutoff) for z in tops[1:]])
     # (-T, -S) for a unit pressure, the same for a unit traction, and -Q

@@ -27,10 +27,17 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = ["mean_over_cells", "rectangle"]
 
-_FAR = 24.0  # in longer sides: beyond, terms of eighth order are below 1e-13
-_DISTANT = 200.0  # likewise: beyond, terms of sixth order are
-_TOUCHING = 3.5  # in longer sides: nearer, the field inside a cell is too steep for quadrature
-_BLOCK = 1 << 15  # points per block, to stay in the cache
+# In longer sides: beyond, the mean of 1/s is a series of sixth order, nearer the closed form. At 24
+# both are off by 2e-14 at most; the series by 2e-13 from 16 on and 2e-12 from 12 on, the closed
+# form, which cancels, by 1e-13 up to 72.
+_FAR = 24.0
+_DISTANT = 200.0  # likewise: beyond, the fourth order does, to 2e-14; to 5e-12 beyond 24
+# In longer sides: nearer, means are differences of a fourfold integral, as the field inside a cell
+# is too steep for quadrature (4e-9 at 1.2); farther these cancel (6e-12 at 7, 1e-11 at 20).
+_TOUCHING = 3.5
+# Points per block, to stay in the cache: a million at once take four times as long as 1 << 13 to 1
+# << 17.
+_BLOCK = 1 << 15
 _FACTORIAL = (1.0, 2.0, 24.0, 720.0)  # of 0, 2, 4, 6
 
 
@@ -234,6 +241,8 @@ def _edge(
 
     The inverse hyperbolic sines of both ends are one, of an argument free of cancellation.
     """
+    # asinh(b) - asinh(a) = asinh(b sqrt(1 + a^2) - a sqrt(1 + b^2)). If the ends lie on both sides
+    # of the point its argument is a sum; else, with its conjugate, (b^2 - a^2) over a sum.
     lower, upper = along - half, along + half
     square = distance**2 + c * c
     root_lower, root_upper = np.sqrt(lower**2 + square), np.sqrt(upper**2 + square)

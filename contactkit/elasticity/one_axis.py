@@ -37,11 +37,20 @@ __all__ = ["coefficients", "reference", "symbol"]
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
 
-_LEAST = 2  # images on either side that are summed pixel by pixel
-_SUMMED = 100  # longer sides of the window up to which images are summed
-_SETTLED = 1e7  # thicknesses, times the contrast, beyond which T is that of the substrate
-_BENDING = 8.0  # lengths over which stiff layers bend, in the distance of the datum
-_NODES = (24, 10)  # across and along: round-off, for images as far as the window is wide
+# Errors of windows of 16 to 64 pixels a side, homogeneous and with layers of a contrast up to 100,
+# over the coefficient at zero offset.
+
+_LEAST = 2  # images on either side that are summed pixel by pixel: 1 and 4 agree to 2e-11
+# Longer sides of the window up to which images are summed, before an integral: 100 leave 3e-10, 50
+# leave 4e-9; 400 take 1.3 times the time.
+_SUMMED = 100
+# Thicknesses, times the contrast, beyond which T is that of the substrate: 1e5 to 1e9 agree to
+# 6e-15.
+_SETTLED = 1e7
+# Lengths over which stiff layers bend, in the distance of the datum: a convention, see `reference`.
+_BENDING = 8.0
+# Across and along: round-off, for images as far as the window is wide; half of either leaves 1e-11.
+_NODES = (24, 10)
 _GAUSS = ((-math.sqrt(0.6), 5 / 18), (0.0, 8 / 18), (math.sqrt(0.6), 5 / 18))  # mean over a pixel
 
 

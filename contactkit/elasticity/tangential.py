@@ -35,8 +35,10 @@ from .layered import compliance
 __all__ = ["TangentialCompliance", "isolated_compliance", "periodic_symbol"]
 
 Array = NDArray[np.float64]
-_NEAR = 16  # pixels from the load up to which edges take many nodes
-_NODES = 4  # beyond: an edge is short against its distance, the error is below 1e-10
+# Pixels from the load up to which edges take many nodes: 16 leave 1e-13, 4 leave 3e-11 of the
+# largest coefficient.
+_NEAR = 16
+_NODES = 4  # beyond, where an edge is short against its distance: 3 leave 1e-10, 2 leave 3e-7
 
 
 class TangentialCompliance(NamedTuple):

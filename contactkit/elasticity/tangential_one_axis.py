@@ -41,13 +41,20 @@ __all__ = ["one_axis_symbol"]
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
+# As in `one_axis`, over the largest coefficient: 1 to 4 near images agree to 1e-11; images summed
+# to 100 sides leave 2e-10, to 50 2e-9; half of the nodes leave 2e-12.
 _LEAST = 2  # images on either side that are summed pixel by pixel
 _SUMMED = 100  # longer sides of the window up to which images are summed
-_NODES = (24, 10)  # across and along: round-off, for images as far as the window is wide
+_NODES = (24, 10)  # across and along
 _GAUSS = ((-math.sqrt(0.6), 5 / 18), (0.0, 8 / 18), (math.sqrt(0.6), 5 / 18))  # mean over a pixel
-_PERIODS = 3.0  # padding: exp(-6 pi) = 7e-9 of the images of waves along the axis is left
-_OCTAVES = 50  # below the longest wave of the window, down to which a line load is integrated
-_AT_ONCE = 4096  # wavenumbers
+# Padding: exp(-6 pi) = 7e-9 of the images of waves along the axis is left; with 2 periods 4e-7,
+# with 1 2e-4 of the largest coefficient. Under layers thinner than two pixels more is left, see
+# Notes.
+_PERIODS = 3.0
+# Below the longest wave of the window, down to which a line load is integrated: from 10 on
+# round-off.
+_OCTAVES = 50
+_AT_ONCE = 4096  # wavenumbers, whose cosines at every pixel are in memory together
 _SIGNS = (1.0, -1.0, 1.0)  # of xx, xy and yy at the opposite offset along one axis
 
 
@@ -81,7 +88,9 @@ def one_axis_symbol(
     Notes
     -----
     Of a half-space the error is below 1e-9 of the largest coefficient. What layers add is read
-    between the pixels as in a periodic window; its images leave 1e-8.
+    between the pixels as in a periodic window; its images leave 1e-8. Layers thinner than two
+    pixels add waves up to the Nyquist frequency, where the symbol is cut: kernels then ring, and
+    images leave 7e-6 at a thickness of one pixel and 7e-5 at 0.3, at a contrast of 100.
 
     References
     ----------

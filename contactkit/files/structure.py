@@ -395,7 +395,7 @@ class Problem(NamedTuple):
         return f"{self.text}  at {self.place}" + (f", line {number}" if number else "")
 
 
-_MOST_LISTED = 50
+_MOST_LISTED = 50  # errors of a file, in lines of a screen; a hostile file may have millions
 
 
 class FileError(DescriptionError):

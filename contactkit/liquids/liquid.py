@@ -25,9 +25,12 @@ LAWS: tuple[type[TemperatureLaw], ...] = (
 )
 """Every law a file can name, by its `kind`; which property it gives follows from its `unit`."""
 
+# Values beyond these are taken for numbers in mN/m, g/mol and GPa. They lie between what occurs in
+# SI units (molten metals 2.5 N/m, polymer oils some kg/mol, liquids 0.3 GPa and more) and what the
+# other unit would give (perfluorohexane 12 mN/m, water 18 g/mol, liquids 0.3 to 5 GPa).
 _MAX_SURFACE_TENSION = 10.0  # [N/m]
 _MAX_MOLAR_MASS = 10.0  # [kg/mol]
-_MIN_BULK_MODULUS = 1e5  # [Pa]; foams are softer
+_MIN_BULK_MODULUS = 1e5  # [Pa]; foams are softer, and are no liquids here
 
 
 @frozen
@@ -264,7 +267,17 @@ class Liquid(Described):
         >>> round(water.molar_volume(293.15) * 1e6, 3)
         18.047
         """
-        density = self.at(temperature).given("density")
+        return self.molar_volume_of(self.at(temperature))
+
+    def molar_volume_of(self, state: LiquidState) -> float:
+        """Molar volume [m3/mol] of this liquid in a state that is known.
+
+        Raises
+        ------
+        DescriptionError
+            If molar mass or density is not given.
+        """
+        density = state.given("density")
         if self.molar_mass is None or density is None:
             name, unit = ("density", "kg/m3") if density is None else ("molar_mass", "kg/mol")
             raise DescriptionError(

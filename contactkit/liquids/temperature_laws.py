@@ -27,6 +27,8 @@ __all__ = [
     "celsius_hint",
 ]
 
+# Higher, it would catch hotter oils in degrees Celsius and suspect cold liquids in kelvin: light
+# alkanes still flow at 150 K (-123 degC), and few lubricants are used above 150 degC.
 SUSPECT_CELSIUS = 150.0
 """Temperature [K] below which degrees Celsius are suspected."""
 

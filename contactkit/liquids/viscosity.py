@@ -14,13 +14,14 @@ from .temperature_laws import SUSPECT_CELSIUS, TemperatureLaw, celsius_hint
 
 __all__ = ["MAX_KINEMATIC_VISCOSITY", "VogelViscosity", "WaltherViscosity", "centistokes_hint"]
 
+# Numbers of lubricants in cSt are above it; in m2/s only bitumen and the like are.
 MAX_KINEMATIC_VISCOSITY = 1.0
 """A million cSt [m2/s]: above it a missing conversion is suspected."""
 
 _MIN_KINEMATIC_VISCOSITY = 0.4 * cSt  # the double logarithm of Walther ends at 0.3 cSt
-_MIN_TEMPERATURE_DISTANCE = (
-    1.0  # between the two temperatures of Walther [K]: closer, noise is extrapolated
-)
+# Between the two temperatures of Walther [K]. An error of 0.1 % in one viscosity of an oil of 46
+# cSt becomes 3 % at 60 K from them where they are 1 K apart, 0.35 % at 10 K and 0.1 % at 50 K.
+_MIN_TEMPERATURE_DISTANCE = 1.0
 # By convention a liquid is a glass from 1e12 Pa.s on, some 1e9 m2/s, long before the formulas
 # overflow.
 _GLASS, _GLASS_KINEMATIC = 1e12, 1e9

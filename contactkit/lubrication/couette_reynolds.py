@@ -18,7 +18,9 @@ if TYPE_CHECKING:
 __all__ = ["lubrication_factor"]
 
 _W = math.sqrt(2.5)
-_TERMS = 60  # of a power series in at most 1/2
+# Of a power series in at most 1/2, over s/D from 1 + 1e-9 to 1e9: 20 terms leave 5e-10, 30 leave
+# 3e-14, and more than 40 change nothing.
+_TERMS = 60
 
 
 def lubrication_factor(gap: ArrayLike, film_height: ArrayLike) -> Any:
@@ -74,6 +76,8 @@ def lubrication_factor(gap: ArrayLike, film_height: ArrayLike) -> Any:
 
 def _log_slope(z: Any, rest: Any) -> Any:
     """G'/G of G = 2F1(-w, 2 - w; 2; z), where `rest` is 1 - z."""
+    # The series about z = 0 stalls at the singularity z = 1 of a wide film; so does the one about 1
+    # towards 0. Each serves its half. `rest` comes in since 1 - z has no digits left for q > 1e15.
     near, far = np.minimum(z, 0.5), np.minimum(rest, 0.5)
     value, slope = _series(-_W, 2.0 - _W, 2.0, near)
     # About z = 1: A f(1 - z) + B (1 - z)^(2w) g(1 - z).

@@ -23,10 +23,10 @@ __all__ = [
     "viscous_to_capillary",
 ]
 
-GRAVITY = 9.80665
+GRAVITY = 9.80665  # CGPM 1901, exact
 """Standard acceleration of gravity [m/s2]."""
 
-LONGEST_FLAT_BRIDGE = 1.4645918875615231
+LONGEST_FLAT_BRIDGE = 1.4645918875615231  # of the cylinder, at two right contact angles
 """Maximum stable gap of a bridge between flats over the cube root of its volume: pi^(1/3)."""
 
 

@@ -42,7 +42,10 @@ __all__ = ["FilmRing", "Inflow", "film_ring", "inflow", "receding_edge"]
 _GREGORY = (
     1 / 12, 1 / 24, 19 / 720, 3 / 160, 863 / 60480, 275 / 24192, 33953 / 3628800, 8183 / 1036800,
 )  # fmt: skip
-_NARROW = 0.03  # width of the ring, as 1 - rho, below which the closed form would cancel
+# Width of the ring, as 1 - rho, below which the series above stands in for the closed form, which
+# cancels to its cube. At 0.03 both are off by 1e-12; at 0.01 the closed form, and at 0.06 the eight
+# terms, by 9e-12.
+_NARROW = 0.03
 
 
 def receding_edge(sigma: float) -> float:
@@ -69,6 +72,9 @@ def receding_edge(sigma: float) -> float:
     if sigma <= 1.0:
         return 0.0
     full = 1.0 / sigma
+    # Newton's method from either end, in the variable that is small there: 1 - rho of a narrow ring
+    # is lost in round-off in rho itself. Both functions are convex, and the starts lie on the side
+    # from which the iterates are monotone: no bracket is needed.
     if full < 0.5:  # a ring that is narrow or of medium width, x = 1 - rho
         x = math.sqrt(2.0 * full)
         for _ in range(60):

@@ -33,7 +33,10 @@ Piece = tuple[float, ...]
 Torn = tuple[Piece, ...]
 """Pieces from the centre outwards."""
 
-_MOST = 64  # pieces that are kept
+# Pieces that are kept. Of an edge that receded in 400 steps over a gap that swung, its square is
+# off by 6e-6 of that of the rim with 64, by 1e-4 with 32 and 1e-7 with 128; each step copies them
+# all, and the C kernel reserves room for as many.
+_MOST = 64
 
 
 class Edge(NamedTuple):

@@ -75,6 +75,8 @@ def _slopes(x: Sequence[float], y: Sequence[float]) -> list[float]:
 
     The two end conditions couple three unknowns each; one elimination makes them couple two.
     """
+    # Not-a-knot, as the slopes at the ends are not known: natural ends (zero curvature) would leave
+    # an error of second order there. The slopes are the unknowns, as curves give value and slope.
     n = len(x)
     h = [x[i + 1] - x[i] for i in range(n - 1)]
     rise = [(y[i + 1] - y[i]) / h[i] for i in range(n - 1)]

@@ -61,6 +61,7 @@ def gauss_legendre(count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """
     nodes, weights = [], []
     for i in range(count):
+        # A guess to 0.12/count^2, far less than the distance of two roots: Newton needs no bracket.
         x = -math.cos(math.pi * (i + 0.75) / (count + 0.5))
         for _ in range(100):
             value, slope = (x, 1.0) if count == 1 else _legendre(count, x)

@@ -39,6 +39,8 @@ class StepSize(NamedTuple):
         Not shorter than the `planned` one if that was cut short, by an event or the end of a span,
         and then met its tolerance at once: `planned` is 0 where it was not.
         """
+        # An error of zero, or one that its power underflows, must not divide: below this it is
+        # `grow`.
         least = (self.safety / self.grow) ** self.order
         grown = self.grow if error <= least else self.safety * error ** (-1.0 / self.order)
         return float(max(length * grown, planned))

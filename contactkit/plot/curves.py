@@ -14,8 +14,10 @@ from .style import Axes, figure, legend, plain_log, series
 
 __all__ = ["curve_names", "curves", "log_where_wide"]
 
-_WIDE = 50.0  # ratio of the ends of an axis from which it is logarithmic
-_DECADES = 1e3  # ratio from which powers of ten are enough to label it
+# Ratio of the ends of an axis from which it is logarithmic: below, a linear one still shows the
+# smallest value (2 % of the axis is the width of a line and its marker).
+_WIDE = 50.0
+_DECADES = 1e3  # ratio from which powers of ten are enough to label it: three labels at least
 
 
 def curve_names(contents: Contents) -> tuple[str, ...]:

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import DescriptionError
-from ..lubrication.reynolds.film import FilmState
-from ..lubrication.reynolds.motion import PullState
+from ..lubrication.reynolds.film import GridFilmState
 from .axis_units import axis_unit, scaled
 from .style import COLORS, Axes, figure, legend
 
@@ -20,13 +19,13 @@ if TYPE_CHECKING:
 
 __all__ = ["animate", "instants", "liquid_fraction", "opening", "pressure"]
 
-BAR = 1e5
+BAR = 1e5  # [Pa], in which pressures are drawn
 _CAVITY = "#c1440e"
 Mirror = tuple[bool, bool]
 
 
 def pressure(
-    state: FilmState,
+    state: GridFilmState,
     ax: Axes | None = None,
     *,
     mirror: Mirror = (False, False),
@@ -36,7 +35,7 @@ def pressure(
 
     Parameters
     ----------
-    state : FilmState
+    state : GridFilmState
         The film.
     ax : Axes, optional
         Where to draw.
@@ -54,7 +53,7 @@ def pressure(
 
 
 def liquid_fraction(
-    state: FilmState, ax: Axes | None = None, *, mirror: Mirror = (False, False)
+    state: GridFilmState, ax: Axes | None = None, *, mirror: Mirror = (False, False)
 ) -> Axes:
     """Draw the fraction of the gap that is liquid, 1 where the film is full.
 
@@ -71,13 +70,13 @@ def liquid_fraction(
 
 
 def instants(
-    states: Sequence[FilmState], *, mirror: Mirror = (False, False), size: float = 2.6
+    states: Sequence[GridFilmState], *, mirror: Mirror = (False, False), size: float = 2.6
 ) -> Figure:
     """Draw pressure and liquid fraction at some instants, with one scale for each.
 
     Parameters
     ----------
-    states : sequence of FilmState
+    states : sequence of GridFilmState
         The film at each instant; some four are well told apart.
     mirror
         See `pressure`.
@@ -109,7 +108,7 @@ def instants(
 
 
 def opening(
-    states: Sequence[PullState | FilmState],
+    states: Sequence[GridFilmState],
     axes: Sequence[Axes] | None = None,
     *,
     copies: int = 1,
@@ -118,12 +117,12 @@ def opening(
 
     Parameters
     ----------
-    states : sequence of PullState or FilmState
-        Steps of `pull_apart` or `follow_gap`.
+    states : sequence of GridFilmState
+        Steps of `follow_gap`.
     axes : sequence of Axes, optional
         Three panels.
     copies : int
-        As in `pull_apart`, how often the window stands for the face: 4 for a quarter.
+        How often the window stands for the face: 4 for a quarter.
 
     Raises
     ------
@@ -134,13 +133,11 @@ def opening(
         raise DescriptionError("opening.states", len(states), "be two or more steps")
     if axes is None:
         axes = figure(3, 1, size=(6.5, 6.5), sharex=True)[1]
-    films = [s if isinstance(s, FilmState) else s.state for s in states]
-    # The force of a pulled mass is that of the whole face already.
-    force = [copies * s.force if isinstance(s, FilmState) else s.force for s in states]
-    time = np.array([s.time for s in films]) * 1e3
-    gap, length = scaled([s.gap[s.film.face.loaded].min() for s in films], "m")
-    radius = np.sqrt([copies * s.cavity_area / np.pi for s in films]) * 1e3
-    face = films[0].film.face
+    force = [copies * s.force for s in states]
+    time = np.array([s.time for s in states]) * 1e3
+    gap, length = scaled([s.gap[s.film.face.loaded].min() for s in states], "m")
+    radius = np.sqrt([copies * s.cavity_area / np.pi for s in states]) * 1e3
+    face = states[0].film.face
     film = float(np.sqrt(copies * face.loaded.sum() * face.cell_area / np.pi)) * 1e3
     axes[0].plot(time, gap, color=COLORS["gap"])
     axes[0].set(ylabel=f"smallest gap [{length}]", ylim=(0.0, None))
@@ -154,7 +151,7 @@ def opening(
 
 
 def animate(
-    states: Sequence[FilmState],
+    states: Sequence[GridFilmState],
     path: str | Path,
     *,
     mirror: Mirror = (False, False),
@@ -165,7 +162,7 @@ def animate(
 
     Parameters
     ----------
-    states : sequence of FilmState
+    states : sequence of GridFilmState
         One for each picture.
     path : str or Path
         File to write, ending in .gif.
@@ -232,7 +229,7 @@ def _instant(time: float, gap: float) -> str:
     return f"{time / factor:.3g} {unit}, {gap / size:.3g} {length}"
 
 
-def _pressure_limits(states: Sequence[FilmState]) -> tuple[float, float]:
+def _pressure_limits(states: Sequence[GridFilmState]) -> tuple[float, float]:
     """Smallest and largest pressure above ambient in all states [bar]."""
     values = [(s.pressure - s.film.ambient)[s.film.face.loaded] / BAR for s in states]
     low, high = min(float(v.min()) for v in values), max(float(v.max()) for v in values)
@@ -240,7 +237,7 @@ def _pressure_limits(states: Sequence[FilmState]) -> tuple[float, float]:
 
 
 def _map(
-    state: FilmState,
+    state: GridFilmState,
     values: NDArray[np.floating[Any]],
     ax: Axes,
     mirror: Mirror,

@@ -23,8 +23,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Scale", "below", "depth_shown", "draw_section", "stress_section"]
 
-_FAINT = 0.1  # of the maximum: as deep as the stress is larger, a figure reaches
-_NAMED = 0.07  # of the depth shown: a layer of that thickness bears its name
+# Of the maximum: a figure reaches as deep as the stress is larger. Below a
+# sphere a tenth lies at four contact radii, a hundredth at thirteen: the contact would be a dot.
+_FAINT = 0.1
+_NAMED = 0.07  # of the depth shown: a thinner layer has no room for a line of text
 LABELS = {
     "von_mises": "von Mises stress",
     "sqrt_j2": "square root of J2",

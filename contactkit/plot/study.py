@@ -20,7 +20,9 @@ __all__ = ["Panel", "draw_line", "over_parameter", "overview", "study_curves"]
 Panel = tuple[str, str, float]
 """Name of a column, label of its axis, and what its values are divided by."""
 
-_WIDE = 20.0  # ratio of the ends of an axis from which it is logarithmic
+# As in `curves`, but earlier: points of a study are few, and the user has spaced wide ranges of a
+# parameter by ratios.
+_WIDE = 20.0
 _MOST_PANELS = 12  # four rows of three: more are too small to read
 _DECADES = 1e3  # ratio from which powers of ten are enough to label it
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["tornado"]
 
 _LOW, _HIGH, _BETWEEN = "#0072b2", "#e69f00", "0.8"  # distinct to the colour-blind, and in grey
-_MISSING = 0.12  # of the width of the axis, beyond the greatest answer
+_MISSING = 0.12  # of the width of the axis, beyond the greatest answer: room for the word
 
 
 def tornado(

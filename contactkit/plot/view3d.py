@@ -25,9 +25,11 @@ __all__ = ["save_view", "stress_grid", "surface_mesh", "view_stress", "view_surf
 
 Shape = Literal["gap", "heights"]
 _PURPOSE = "a view in three dimensions"
-_RELIEF = 0.15  # of the window: how high a surface is drawn
+# Heights are magnified to this fraction of the window: more hides valleys behind summits, less
+# looks flat in the slanted view.
+_RELIEF = 0.15
 _MARGIN = 15  # pixels around what is drawn
-_FAINT = 0.1  # of the maximum: as deep as the stress is larger, it is drawn
+_FAINT = 0.1  # of the maximum: as deep as the stress is larger, it is drawn; as in `stress`
 
 
 def surface_mesh(

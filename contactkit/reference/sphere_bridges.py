@@ -39,7 +39,9 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-# Coefficients of 1, theta and theta^2, for the powers of ln V*.
+# Coefficients of 1, theta and theta^2, for the powers of ln V*: Willett et al. [1], supplement.
+# Digits as printed: half a unit of the last one moves the force by 0.3 % at most, and that of
+# -0.0005 by 4 % at V* = 1e-4.
 _F1 = (
     (-0.44507, 0.050832, -1.1466),
     (-0.1119, -0.000411, -0.1490),

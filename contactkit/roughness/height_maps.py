@@ -39,8 +39,13 @@ Pair = tuple[float, float]
 Trend = Literal["none", "mean", "tilt", "curvature"]
 
 _RESIDUE = 8.0 * float(np.finfo(np.float64).eps)  # of the heights given, that detrending leaves
-_SPARSE = 16  # grid points for each that is there, above which a list of points is no map
-_ROUNDED = 0.02  # tolerance of coordinates over the step, for values rounded in a text
+# Grid points for each that is there, above which a list of points is no map but scattered: n points
+# with coordinates of their own span n^2, and would be filled into an array of that size before
+# holes show.
+_SPARSE = 16
+# Tolerance of coordinates over the step, for values rounded in a text (three digits of a step). A
+# grid whose steps differ by more has to be resampled: slopes would be off by as much.
+_ROUNDED = 0.02
 
 
 def read_matrix(file: Path) -> Array:

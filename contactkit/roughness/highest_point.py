@@ -9,9 +9,17 @@ __all__ = ["rise_between_pixels"]
 
 Map = NDArray[np.float64]
 
-_SUMMITS = 16  # the highest ones: a lower pixel may have the higher summit beside it
-_REACH = 6  # pixels around a summit through which the spline goes
-_FINER = 8  # points per pixel at which it is read, within a pixel of the summit
+# Errors over the rms height, of 24 random surfaces with 3 or 4 pixels to the shortest wave, whose
+# rise is 0.02 on average: 1e-3 at most.
+
+# The highest ones: a lower pixel may have the higher summit beside it. With one the error is 2e-2;
+# from 2 on these surfaces do not change; the time grows in proportion.
+_SUMMITS = 16
+# Pixels around a summit through which the spline goes: 4 leave 2e-3, 2 leave 9e-3, 10 the same
+# 1e-3.
+_REACH = 6
+# Points per pixel at which it is read, within a pixel of the summit: 4 leave 5e-3, 16 4e-4.
+_FINER = 8
 
 
 def rise_between_pixels(heights: Map, repeats: tuple[bool, bool]) -> float:

@@ -71,6 +71,8 @@ class Spectrum(NamedTuple):
     """Number of waves in each value; the relative scatter is one over the root of half of it."""
 
 
+# Above it squares of curvatures overflow on pixels of a nanometre or less. No surface is near it,
+# nor would be in any unit: 1e20 to 1e60 refuse the same.
 _HIGHEST = 1e30  # [m]
 
 # What is accepted ---------------------------------------------------------------------------

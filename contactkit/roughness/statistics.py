@@ -40,6 +40,8 @@ __all__ = [
     "surface_statistics",
 ]
 
+# Below it squares of curvatures underflow on pixels of a metre or more. An atom is 1e-10 m: what
+# differs by less is a plane with round-off.
 _LOWEST = 1e-30  # [m]
 
 Array = NDArray[np.float64]

@@ -15,6 +15,7 @@ scenes               Contact, separation and sliding: interface, loading and eff
 plan                 Base class of all plans.
 result               Base class of all results.
 scales               Reference scales of a result.
+curve                Curves: columns over one axis, each with its unit, and the numbers that follow.
 figures              Figures of a result as methods, which the room that draws fills in.
 tabular              Results as tables: quantities with axes, units and labels.
 description          A scene in words, with units that read well.

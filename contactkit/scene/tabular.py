@@ -59,8 +59,14 @@ class Tabular(Drawn, abc.ABC):
         return frame(self.contents())
 
 
-def curve_contents(axis: str, columns: Mapping[str, tuple[ArrayLike, str]], title: str) -> Contents:
-    """Return the contents of a curve: columns along one axis, each with its unit.
+def curve_contents(
+    axis: str,
+    columns: Mapping[str, tuple[ArrayLike, str]],
+    title: str,
+    numbers: Mapping[str, tuple[float, str]] | None = None,
+    remarks: Mapping[str, str] | None = None,
+) -> Contents:
+    """Return the contents of a curve: columns along one axis and numbers, each with its unit.
 
     Examples
     --------
@@ -72,7 +78,11 @@ def curve_contents(axis: str, columns: Mapping[str, tuple[ArrayLike, str]], titl
         name: Quantity((axis,), values, unit, name.replace("_", " "))
         for name, (values, unit) in columns.items()
     }
-    return Contents((axis,), quantities, {"title": title})
+    quantities |= {
+        name: Quantity((), value, unit, name.replace("_", " "))
+        for name, (value, unit) in (numbers or {}).items()
+    }
+    return Contents((axis,), quantities, {"title": title, **(remarks or {})})
 
 
 def pixel_axes(shape: tuple[int, int], pixel_size: tuple[float, float]) -> dict[str, Quantity]:

@@ -3,20 +3,36 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from types import MappingProxyType
+from typing import NamedTuple
 
 from attrs import field, frozen
 
 from ..scene.column import Column
 from .cavity.law import Cavitation
-from .effects.base import ForceLaw, Limiter, LimitKind, SeparationForce
-from .effects.viscous import ViscousForce, ViscousLaw
+from .effects.base import Limiter, LimitKind, SeparationForce
+from .effects.force_law import ForceLaw, LawAt, law_impulse
 from .integrator.radau import Forces
 
-__all__ = ["Film"]
+__all__ = ["Film", "ForcesAt"]
 
-_DIFFERENCE = 1e-7  # relative, of gap and speed, for the slopes of forces
+_DIFFERENCE = 1e-7  # relative, of gap and speed, for the slopes of a force that a limit bounds
+
+
+class ForcesAt(NamedTuple):
+    """Forces [N] at a gap and a speed, positive where they resist opening.
+
+    `named` has each by the name of its column. Their sum is that of `static`, which they are at
+    rest, and of `viscous`, which the speed adds. `newtonian` has those of a flowing liquid without
+    its limits, by the names of their columns, and `limit` is the one that acts.
+    """
+
+    named: dict[str, float]
+    static: float
+    viscous: float
+    newtonian: dict[str, float]
+    limit: LimitKind
 
 
 @frozen(eq=False)
@@ -37,11 +53,21 @@ class Film:
     kinks: tuple[float, ...] = field(init=False)
     release: float = field(init=False)
     recontact: float = field(init=False)
-    # The same laws, split once: these are called some ten times per internal step.
-    _viscous: ViscousLaw | None = field(init=False, repr=False)
-    _static: tuple[Callable[[float, float], float], ...] = field(init=False, repr=False)
+    limited: type[SeparationForce] | None = field(init=False)
+    """Force that limits of the liquid bound; None where there are no limits."""
+    columns: tuple[Column, ...] = field(init=False, repr=False)
+    """Columns of all forces, that of a flowing liquid last."""
     static_columns: tuple[Column, ...] = field(init=False, repr=False)
-    static_impulses: tuple[str, ...] = field(init=False, repr=False)
+    """Columns of forces that act at rest, too."""
+    moving_columns: tuple[Column, ...] = field(init=False, repr=False)
+    """Columns of forces that may depend on the speed."""
+    impulse_names: tuple[str, ...] = field(init=False, repr=False)
+    """Name of the impulse of each law, in their order."""
+    # The same laws, split once: these are called some ten times per internal step.
+    _static: tuple[ForceLaw, ...] = field(init=False, repr=False)
+    _proportional: tuple[ForceLaw, ...] = field(init=False, repr=False)
+    _any: tuple[ForceLaw, ...] = field(init=False, repr=False)
+    _bounded: ForceLaw | None = field(init=False, repr=False)
 
     @kinks.default
     def _find_kinks(self) -> tuple[float, ...]:
@@ -56,27 +82,48 @@ class Film:
     def _find_recontact(self) -> float:
         return max((law.recontact for law in self.laws.values()), default=0.0)
 
-    @_viscous.default
-    def _find_viscous(self) -> ViscousLaw | None:
-        law = self.laws.get(ViscousForce)
-        return law if isinstance(law, ViscousLaw) else None
+    @limited.default
+    def _find_limited(self) -> type[SeparationForce] | None:
+        liquid = (kind for kind in self.laws if kind.newtonian is not None)
+        return next(liquid, None) if self.is_limited else None
 
-    @_static.default
-    def _find_static(self) -> tuple[Callable[[float, float], float], ...]:
-        return tuple(law.force for kind, law in self.laws.items() if kind is not ViscousForce)
+    @columns.default
+    def _find_columns(self) -> tuple[Column, ...]:
+        # A sort keeps the order of the scene among the others.
+        kinds = sorted(self.laws, key=lambda kind: kind.newtonian is not None)
+        return tuple(kind.column for kind in kinds)
 
     @static_columns.default
-    def _find_columns(self) -> tuple[Column, ...]:
-        return tuple(kind.column for kind in self.laws if kind is not ViscousForce)
+    def _find_static_columns(self) -> tuple[Column, ...]:
+        return tuple(k.column for k, law in self.laws.items() if law.rate != "proportional")
 
-    @static_impulses.default
-    def _find_impulses(self) -> tuple[str, ...]:
-        return tuple(column.impulse.name for column in self.static_columns)
+    @moving_columns.default
+    def _find_moving_columns(self) -> tuple[Column, ...]:
+        return tuple(k.column for k, law in self.laws.items() if law.rate != "none")
 
-    @property
-    def has_viscous(self) -> bool:
-        """Whether a viscous force is among the laws."""
-        return self._viscous is not None
+    @impulse_names.default
+    def _find_impulse_names(self) -> tuple[str, ...]:
+        return tuple(kind.column.impulse.name for kind in self.laws)
+
+    @_static.default
+    def _find_static(self) -> tuple[ForceLaw, ...]:
+        return tuple(law for law in self.laws.values() if law.rate == "none")
+
+    @_proportional.default
+    def _find_proportional(self) -> tuple[ForceLaw, ...]:
+        return self._unbounded("proportional")
+
+    @_any.default
+    def _find_any(self) -> tuple[ForceLaw, ...]:
+        return self._unbounded("any")
+
+    @_bounded.default
+    def _find_bounded(self) -> ForceLaw | None:
+        return self.laws[self.limited] if self.limited is not None else None
+
+    def _unbounded(self, rate: str) -> tuple[ForceLaw, ...]:
+        pairs = self.laws.items()
+        return tuple(law for k, law in pairs if law.rate == rate and k is not self.limited)
 
     def remaining(self, *, broken: bool, detached: bool) -> Film | None:
         """Film without the forces that rupture or pull-off ends; None if no force remains."""
@@ -96,29 +143,47 @@ class Film:
         """Whether a limit of the liquid is among what acts."""
         return bool(self.limits) or self.cavity is not None
 
-    def static_force(self, gap: float) -> float:
-        """Sum of the forces [N] that do not depend on speed, at a gap [m]."""
-        total = 0.0
-        for force in self._static:
-            total += force(gap, 0.0)
-        return total
-
-    def static_forces(self, gap: float) -> dict[str, float]:
-        """Each force [N] that does not depend on speed at a gap [m], by the name of its column."""
-        return {
-            column.name: force(gap, 0.0)
-            for column, force in zip(self.static_columns, self._static, strict=True)
-        }
+    @property
+    def is_smooth(self) -> bool:
+        """Whether no slope can jump with the speed: no limits, and no law of any rate."""
+        return not (self._any or self.is_limited)
 
     def impulses(self) -> dict[str, float]:
         """Impulse [N.s] of each force before anything has moved, by its name."""
-        return {kind.column.impulse.name: 0.0 for kind in self.laws}
+        return dict.fromkeys(self.impulse_names, 0.0)
+
+    def static_force(self, gap: float) -> float:
+        """Sum of the forces [N] at rest, at a gap [m]."""
+        total = 0.0
+        for law in self._static:
+            total += law.force(gap, 0.0)
+        for law in self._any:
+            total += law.force(gap, 0.0)
+        return total
+
+    def static_forces(self, gap: float) -> dict[str, float]:
+        """Each force [N] that acts at rest at a gap [m], by the name of its column."""
+        return {
+            kind.column.name: law.force(gap, 0.0)
+            for kind, law in self.laws.items()
+            if law.rate != "proportional"
+        }
 
     def viscous_force(self, gap: float, speed: float) -> tuple[float, LimitKind]:
-        """Viscous force [N] that is left after the limits, and the limit that acts."""
-        if self._viscous is None:
+        """What the speed adds to the forces [N], after the limits, and the limit that acts."""
+        total, limit = self.limited_force(gap, speed)
+        for law in (*self._proportional, *self._any):
+            total += law.viscous_force(gap, speed)
+        return total, limit
+
+    def limited_force(self, gap: float, speed: float) -> tuple[float, LimitKind]:
+        """Force [N] that the limits of the liquid bound, and the limit that acts; 0 without any."""
+        if self._bounded is None:
             return 0.0, LimitKind.NONE
-        newtonian = self._viscous.force(gap, speed)
+        return self._left(gap, speed, self._bounded.force(gap, speed))
+
+    def _left(self, gap: float, speed: float, newtonian: float) -> tuple[float, LimitKind]:
+        """Force [N] that the limits leave of a Newtonian one, and the limit that acts."""
         found, acting = newtonian, LimitKind.NONE
         for kind, limiter in self.limits:
             left = limiter(gap, speed, newtonian)
@@ -126,36 +191,86 @@ class Film:
                 found, acting = left, kind
         return found, acting
 
-    def forces(self, gap: float, speed: float) -> Forces:
-        """Static and viscous force [N] with their slopes, by differences, and the limit that acts.
+    def at(self, gap: float, speed: float, held: float | None = None) -> ForcesAt:
+        """Return each force at a gap and a speed, evaluated once.
 
-        A limit leaves a viscous force at rest alone, so that differences of the speed may be
-        relative: they never straddle the speed at which the limit sets in.
+        `held` is what a film that tears holds around its cavity [N], in place of what it would
+        hold while it is whole.
         """
-        near = gap * (1.0 + _DIFFERENCE)
-        static, static_by_gap = self.static_slope(gap)
-        damping = damping_near = 0.0
-        if self._viscous is not None:
-            damping, damping_near = self._viscous.force(gap, 1.0), self._viscous.force(near, 1.0)
-        viscous, limit = (
-            self.viscous_force(gap, speed) if self.limits else (damping * speed, LimitKind.NONE)
-        )
-        if limit is LimitKind.NONE:
-            by_gap = speed * (damping_near - damping) / (near - gap)
-            return Forces(static, static_by_gap, viscous, by_gap, damping)
-        by_gap = (self.viscous_force(near, speed)[0] - viscous) / (near - gap)
-        faster = speed * (1.0 + _DIFFERENCE)
-        by_speed = (self.viscous_force(gap, faster)[0] - viscous) / (faster - speed)
-        return Forces(static, static_by_gap, viscous, by_gap, by_speed, limit)
+        named: dict[str, float] = {}
+        newtonian: dict[str, float] = {}
+        static, viscous, limit = 0.0, 0.0, LimitKind.NONE
+        for kind, law in self.laws.items():
+            value = law.force(gap, speed if law.rate != "none" else 0.0)
+            rest = 0.0
+            if law.rate != "proportional":
+                rest = law.force(gap, 0.0) if law.rate == "any" and speed else value
+            if kind.newtonian is not None:
+                newtonian[kind.newtonian.name] = value
+                if law is self._bounded:
+                    value, limit = (
+                        self._left(gap, speed, value) if held is None else (held, LimitKind.TENSION)
+                    )
+            named[kind.column.name] = value
+            static += rest
+            viscous += value - rest
+        ordered = {column.name: named[column.name] for column in self.columns}
+        return ForcesAt(ordered, static, viscous, newtonian, limit)
 
-    def static_slope(self, gap: float) -> tuple[float, float]:
-        """Sum of the forces [N] that do not depend on speed, and its slope over the gap [N/m]."""
-        near = gap * (1.0 + _DIFFERENCE)
-        static = static_near = 0.0
-        for force in self._static:
-            static += force(gap, 0.0)
-            static_near += force(near, 0.0)
-        return static, (static_near - static) / (near - gap)
+    def forces(self, gap: float, speed: float) -> Forces:
+        """Forces at rest and what the speed adds [N], with their slopes, and the limit that acts.
+
+        A limit leaves a force at rest alone, so that differences of the speed may be relative: they
+        never straddle the speed at which the limit sets in.
+        """
+        found = self.unbounded(gap, speed)
+        limit = LimitKind.NONE if self._any else None
+        bounded = self._bounded
+        if bounded is None:
+            return Forces(*found, limit)
+        left, acting = self.limited_force(gap, speed)
+        if acting is LimitKind.NONE:
+            return Forces(*_sum(found, bounded.at(gap, speed)), limit)
+        near, faster = gap * (1.0 + _DIFFERENCE), speed * (1.0 + _DIFFERENCE)
+        nearer, more = self.limited_force(near, speed)[0], self.limited_force(gap, faster)[0]
+        slopes = (nearer - left) / (near - gap), (more - left) / (faster - speed)
+        return Forces(*_sum(found, LawAt(0.0, 0.0, left, *slopes)), acting)
+
+    def split(self, gap: float, speed: float, forces: Forces) -> list[float]:
+        """Each force [N] at a gap and a speed, in the order of the laws, from their sums.
+
+        What the sums say by themselves is not evaluated again; and a force with a memory is what
+        the others leave of the sum.
+        """
+        one_static, one_moving = len(self.static_columns) == 1, len(self.moving_columns) == 1
+        found = []
+        for law in self.laws.values():
+            if law.rate == "none":
+                value = forces.static if one_static else law.force(gap, 0.0)
+            elif one_moving and law.rate == "proportional":
+                value = forces.viscous
+            elif law is self._bounded:
+                others = (*self._proportional, *self._any)
+                value = forces.viscous - sum(one.viscous_force(gap, speed) for one in others)
+            else:
+                value = law.force(gap, speed)
+            found.append(value)
+        return found
+
+    def unbounded(self, gap: float, speed: float) -> LawAt:
+        """Sum of the forces with their slopes, that which limits of the liquid bound left out."""
+        static = static_by_gap = viscous = by_gap = by_speed = 0.0
+        for law in self._static:
+            value, slope = law.static_slope(gap)
+            static, static_by_gap = static + value, static_by_gap + slope
+        for law in self._proportional:
+            value, slope = law.damping_slope(gap)
+            viscous, by_gap = viscous + value * speed, by_gap + slope * speed
+            by_speed += value
+        found = LawAt(static, static_by_gap, viscous, by_gap, by_speed)
+        for law in self._any:
+            found = _sum(found, law.at(gap, speed))
+        return found
 
     @staticmethod
     def acting_limit(forces: Forces) -> LimitKind:
@@ -164,23 +279,54 @@ class Film:
 
     def force(self, gap: float, speed: float) -> float:
         """Sum of all forces [N]; positive resists opening."""
-        total = self.viscous_force(gap, speed)[0]
-        for force in self._static:
-            total += force(gap, speed)
+        return self.viscous_force(gap, speed)[0] + self.static_force(gap)
+
+    def damping(self, gap: float, speed: float = 1.0) -> float:
+        """What a speed [m/s] adds to the forces without limits, over that speed [N.s/m]."""
+        total = 0.0
+        for law in self._moving():
+            total += law.damping(gap, speed)
         return total
 
-    def damping(self, gap: float) -> float:
-        """Damping coefficient of the film without limits, viscous force per speed [N.s/m]."""
-        return self._viscous.force(gap, 1.0) if self._viscous is not None else 0.0
+    def exponent(self, gap: float, speed: float = 1.0) -> float:
+        """Exponent n of the damping at a speed [m/s], which falls as gap^-n; 0 without one."""
+        laws = self._moving()
+        if len(laws) == 1:
+            return laws[0].exponent_at(gap, speed)
+        shares = [max(law.damping(gap, speed), 0.0) for law in laws]
+        total = sum(shares)
+        if not total > 0.0:
+            return 0.0
+        each = (law.exponent_at(gap, speed) for law in laws)
+        return sum(n * share for n, share in zip(each, shares, strict=True)) / total
 
-    def exponent(self, gap: float) -> float:
-        """Exponent n of the viscous force, which falls as gap^-n; 0 without one."""
-        return self._viscous.exponent(gap) if self._viscous is not None else 0.0
+    def _moving(self) -> tuple[ForceLaw, ...]:
+        bounded = () if self._bounded is None else (self._bounded,)
+        return (*self._proportional, *bounded, *self._any)
+
+    @property
+    def has_viscous_impulse(self) -> bool:
+        """Whether a force is proportional to speed, so that two gaps give its impulse."""
+        return any(law.rate == "proportional" for law in self.laws.values())
+
+    def viscous_impulse(self, start: float, end: float) -> float:
+        """Impulse [N.s] between two gaps [m] of forces proportional to speed, without limits."""
+        laws = (law for law in self._moving() if law.rate == "proportional")
+        return sum(law_impulse(law, start, end) for law in laws)
 
     def newtonian_impulse(self, start: float, end: float) -> float:
-        """Impulse [N.s] of the viscous force without limits between two gaps [m]; 0 without one."""
-        return self._viscous.impulse(start, end) if self._viscous is not None else 0.0
+        """Impulse [N.s] of a flowing liquid without limits between two gaps [m]; 0 without one."""
+        return sum(law_impulse(law, start, end) for law in self._liquid())
 
     def newtonian_force(self, gap: float, speed: float) -> float:
-        """Viscous force [N] without limits; 0 without one."""
-        return self._viscous.force(gap, speed) if self._viscous is not None else 0.0
+        """Force [N] of a flowing liquid without limits; 0 without one."""
+        return sum(law.force(gap, speed) for law in self._liquid())
+
+    def _liquid(self) -> list[ForceLaw]:
+        return [law for kind, law in self.laws.items() if kind.newtonian is not None]
+
+
+def _sum(one: LawAt, other: LawAt) -> LawAt:
+    a, b, c, d, e = one
+    p, q, r, s, t = other
+    return LawAt(a + p, b + q, c + r, d + s, e + t)

@@ -32,9 +32,9 @@ from .effects.base import (
     SeparationForce,
     effects_of,
 )
+from .effects.force_law import measured_rate, settled
 from .effects.prepared import PreparedScene, prepare_scene, with_fraction
 from .effects.registry import SEPARATION_EFFECTS, SeparationEffect
-from .effects.viscous import ViscousForce
 from .film import Film
 from .first_closing import closing_note
 
@@ -154,7 +154,8 @@ class Plan(ScenePlan):
             raise DescriptionError(
                 "Plan.force(gap, speed)", (gap, speed), "be numbers or arrays that broadcast"
             ) from None
-        least = 0.0 if not (self.scene.interface.is_flat or self.film.has_viscous) else None
+        touches = not any(kind.touching for kind in self.film.laws)
+        least = 0.0 if touches and not self.scene.interface.is_flat else None
         for value in gaps.ravel().tolist():
             if not (math.isfinite(value) and (value > 0.0 or value == least)):
                 expected = "be positive and finite" if least is None else "be zero or positive"
@@ -202,7 +203,7 @@ class Plan(ScenePlan):
             found.append("no mass: speeds are those at which the film balances the pull")
         if isinstance(loading, ImposedForce):
             found.append(closing_note(loading, self.film))
-        if not self.scene.interface.has_discs:
+        if not self.scene.interface.has_discs and len(self.forces) > 1:
             found.append(
                 f"the face is no even disc: all but the viscous force take it for one of the same "
                 f"area, of radius {quantity_text(self.scene.interface.rim_radius, 'm')}"
@@ -241,8 +242,13 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
     _check_gap(scene)
     prepared = prepare_scene(scene, accuracy, liquid)
     film = _film(prepared)
-    if film.end <= scene.loading.initial_gap:
-        raise _too_wide(scene, film.end)
+    loading = scene.loading
+    if isinstance(loading, ImposedForce) and loading.mass is None and not film.has_viscous_impulse:
+        raise PlanError(
+            "an imposed force needs loading.mass [kg], or ViscousForce(), to set a speed"
+        )
+    if film.end <= loading.initial_gap:
+        raise _too_wide(prepared, film.end)
     check_rim(prepared)
     films = {1.0: film} | _rewetted(prepared, film)
     states = MappingProxyType(_states(films))
@@ -268,7 +274,7 @@ def _check_effects(scene: SeparationScene, kinds: Sequence[type], liquid: Liquid
         for effect in effects_of(scene)
         for item in (*liquid.missing(*effect.liquid_needs(scene)), *effect.lacks(scene))
     ]
-    if scene.liquid_pressure is not None:
+    if scene.meniscus.has_pressure:
         problems += [
             f"{type(e).__name__} needs interface.meniscus.volume [m3] in place of its pressure: it "
             "has no law at a fixed pressure"
@@ -292,16 +298,15 @@ def _lacks_of_limits(scene: SeparationScene, kinds: Sequence[type]) -> list[str]
             for e in scene.effects
             if isinstance(e, FilmLimit | FilmEnd)
         ]
-    if ViscousForce not in kinds:
+    bounded = [k for k in kinds if issubclass(k, SeparationForce) and k.newtonian is not None]
+    limits = [type(e).__name__ for e in scene.effects if isinstance(e, FilmLimit)]
+    if not bounded:
         problems += [
-            f"{type(e).__name__} needs ViscousForce() beside it: it bounds the viscous force"
-            for e in scene.effects
-            if isinstance(e, FilmLimit)
+            f"{name} needs ViscousForce() beside it: it bounds the viscous force" for name in limits
         ]
-        if massless:
-            problems.append(
-                "an imposed force needs loading.mass [kg], or ViscousForce(), to set a speed"
-            )
+    if len(bounded) > 1 and limits:
+        both = " and ".join(kind.__name__ for kind in bounded)
+        problems.append(f"{limits[0]} bounds one force of the film; keep one of {both}")
     if isinstance(loading, ImposedTime):
         problems += [
             f"{type(e).__name__} needs a speed or a force imposed: with only the time given, the "
@@ -325,19 +330,18 @@ def _check_gap(scene: SeparationScene) -> None:
             "loading.initial_gap is 0 m between flats: touching flats are a contact problem; "
             "give the gap that their roughness keeps open [m]"
         )
-    if any(isinstance(e, ViscousForce) for e in scene.effects):
-        raise InfeasibleError(
-            "loading.initial_gap is 0 m: the viscous impulse from a touching sphere is infinite, "
-            "it grows as ln(1/gap); give a cut-off gap [m], such as the roughness or 0.2 to 0.3 nm"
-        )
+    for effect in scene.effects:
+        if isinstance(effect, SeparationForce) and effect.touching:
+            raise InfeasibleError(f"loading.initial_gap is 0 m: {effect.touching}")
 
 
-def _too_wide(scene: SeparationScene, end: float) -> InfeasibleError:
+def _too_wide(prepared: PreparedScene[SeparationScene], end: float) -> InfeasibleError:
     """Error that names the largest gap, and the largest number of menisci where that is known."""
+    scene = prepared.scene
     gap, meniscus = scene.loading.initial_gap, scene.meniscus
     reach, cure = "volume", "give more volume or a smaller initial_gap"
-    if scene.liquid_pressure is not None:
-        reach = f"pressure of {scene.liquid_pressure:g} Pa"
+    if prepared.liquid_pressure is not None:
+        reach = f"pressure of {prepared.liquid_pressure:g} Pa"
         cure = "give one nearer to zero (a higher humidity) or a smaller initial_gap"
     elif meniscus.volume is None:
         reach, cure = "liquid", "give a smaller initial_gap"
@@ -359,7 +363,7 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
     end = math.inf
     for effect in prepared.scene.effects:
         if isinstance(effect, SeparationForce):
-            laws[type(effect)] = effect.prepare(prepared)
+            laws[type(effect)] = _law(prepared, effect)
         elif isinstance(effect, FilmLimit):
             tears = effect.cavity_law(prepared)
             if tears is None:
@@ -370,6 +374,42 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
             end = effect.prepare(prepared)
     end = min([end, *(law.end for law in laws.values())])
     return Film(MappingProxyType(laws), tuple(limits), end, prepared.film.full_gap, cavity)
+
+
+_RATES = {"none": "not depend on the speed", "proportional": "be proportional to the speed"}
+_PROBES = 9  # gaps at which a law is asked how it depends on the speed
+
+
+def _law(prepared: PreparedScene[SeparationScene], effect: SeparationForce) -> ForceLaw:
+    """Law of a force, which depends on the speed as it says, and as the loading can follow.
+
+    Raises
+    ------
+    PlanError
+        If it says that it depends on the speed in another way than it does, or no path in time is
+        known to which it belongs.
+    """
+    law, loading, name = effect.prepare(prepared), prepared.scene.loading, type(effect).__name__
+    low = loading.initial_gap or 1e-3 * loading.final_gap
+    high = max(min(loading.final_gap, law.end), low)
+    gaps = [low * (high / low) ** (i / _PROBES) for i in range(_PROBES)]
+    if law.rate != "any":
+        if measured_rate(law, gaps[:1]) not in (law.rate, "none"):
+            raise PlanError(
+                f'{name}: its ForceLaw says rate="{law.rate}", but it does not '
+                f"{_RATES[law.rate]}; leave rate out"
+            )
+        return law
+    if isinstance(loading, ImposedTime):
+        law = settled(law, gaps)
+        if law.rate == "any":
+            raise PlanError(
+                f"{name} needs a speed or a force imposed: it depends on the speed, and with only "
+                "the time given no speed is known"
+            )
+    elif isinstance(loading, ImposedForce) and loading.mass is None:
+        law = settled(law, gaps)
+    return law
 
 
 def _rewetted(prepared: PreparedScene[SeparationScene], film: Film) -> dict[float, Film]:

@@ -15,8 +15,9 @@ from ..numerics.lines import with_middles
 from ..scene.loading import ImposedSpeed, ImposedTime
 from ..units import quantity_text
 from .curve_result import LateColumns, Work
-from .effects.base import CAVITY, LIMIT, FilmStatus, LimitKind
-from .effects.registry import ViscousForce
+from .effects.base import CAVITY, LIMIT, FilmStatus, LimitKind, SeparationForce
+from .effects.force_law import law_impulse
+from .film import Film
 from .plan import Plan
 from .results import SeparationResult, extremes_of, with_late_curves
 from .torn_path import Known, TornPoint, torn_points
@@ -31,7 +32,9 @@ __all__ = [
     "at_speed",
     "broke",
     "frozen",
-    "newtonian_impulses",
+    "impulses_of_gaps",
+    "impulses_so_far",
+    "limited_name",
     "simulated",
     "torn_row",
     "within_time",
@@ -80,16 +83,16 @@ def at_speed(plan: Plan, loading: ImposedSpeed, begun: float) -> SeparationResul
     impulses = {}
     film = plan.film
     for kind, law in film.laws.items():
-        if kind is not ViscousForce:
-            end = min(law.release, film.end if kind.needs_film else math.inf)
-            if any(gaps[0] <= pole <= min(gaps[-1], end) for pole in law.poles):
-                continue
-            running = _running(law.force, speed, gaps, end)
-            impulses[kind.column.impulse.name] = running[-1]
-    if plan.has(ViscousForce):
-        impulses |= newtonian_impulses(plan)
-        if film.is_limited:
-            impulses["viscous_impulse"] = float(columns["viscous_impulse"][-1])
+        end = _end(plan, kind)
+        if law.rate == "proportional" or any(
+            gaps[0] <= pole <= min(gaps[-1], end) for pole in law.poles
+        ):
+            continue
+        impulses[kind.column.impulse.name] = _running(law.force, speed, gaps, end)[-1]
+    impulses |= impulses_of_gaps(plan)
+    if film.limited is not None and film.limited.so_far is not None:
+        name = film.limited.so_far.name
+        impulses[film.limited.column.impulse.name] = float(columns[name][-1])
     validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"forces at {speed:g} m/s from {gaps[0]:g} m to {gaps[-1]:g} m{broke(plan)}"
@@ -105,15 +108,28 @@ def _at_speed(
     """Curves at some gaps [m] of an opening at a speed."""
     torn, film = _torn(plan, loading, gaps, known), plan.film
     columns = _forces_at_speed(plan, loading, gaps, torn)
-    if plan.has(ViscousForce):
-        running = [point.impulse for point in torn]
-        running += [running[-1]] * (len(gaps) - len(torn)) if torn else []
-        if not torn:
-            running = _running(
-                lambda gap, v: film.viscous_force(gap, v)[0], loading.speed, gaps, film.end
-            )
-        columns["viscous_impulse"] = frozen(running)
+    for kind, law in film.laws.items():
+        if kind.so_far is None:
+            continue
+        if kind is film.limited and torn:
+            running = [point.impulse for point in torn]
+            running += [running[-1]] * (len(gaps) - len(torn))
+        else:
+            force = _limited(film) if kind is film.limited else law.force
+            running = _running(force, loading.speed, gaps, _end(plan, kind))
+        columns[kind.so_far.name] = frozen(running)
     return columns
+
+
+def _limited(film: Film) -> Callable[[float, float], float]:
+    """Force [N] that the limits of the liquid leave."""
+    return lambda gap, speed: film.limited_force(gap, speed)[0]
+
+
+def _end(plan: Plan, kind: type[SeparationForce]) -> float:
+    """Gap [m] up to which a force acts on bodies that are opened once."""
+    film = plan.film
+    return min(film.laws[kind].release, film.end if kind.needs_film else math.inf)
 
 
 def _forces_at_speed(
@@ -122,7 +138,7 @@ def _forces_at_speed(
     """Curves that need no integral, at some gaps [m]."""
     speed = loading.speed
     rows = [_forces(plan, gap, speed) for gap in gaps]
-    rows[: len(torn)] = [_with_torn(*pair) for pair in zip(rows, torn, strict=False)]
+    rows[: len(torn)] = [_with_torn(plan, *pair) for pair in zip(rows, torn, strict=False)]
     return {
         "time": frozen([(gap - loading.initial_gap) / speed for gap in gaps]),
         "gap": frozen(gaps),
@@ -209,16 +225,23 @@ def _torn(
     return torn_points(film, law, lambda time: (start + speed * time, speed), times, rtol, known)
 
 
-def _with_torn(row: dict[str, float], point: TornPoint) -> dict[str, float]:
-    """Row of a curve with the viscous force of a film that tears in place of that of a full one."""
-    return row | torn_row(point) | {"pull": row["pull"] - row["viscous_force"] + point.force}
+def _with_torn(plan: Plan, row: dict[str, float], point: TornPoint) -> dict[str, float]:
+    """Row of a curve with the force of a film that tears in place of that of a whole one."""
+    torn = torn_row(plan, point)
+    return row | torn | {"pull": row["pull"] - row[limited_name(plan)] + point.force}
 
 
-def torn_row(point: TornPoint) -> dict[str, float]:
+def limited_name(plan: Plan) -> str:
+    """Name of the force that limits of the liquid bound."""
+    assert plan.film.limited is not None
+    return plan.film.limited.column.name
+
+
+def torn_row(plan: Plan, point: TornPoint) -> dict[str, float]:
     """Columns of a film that tears."""
     radius, void = (column.name for column in CAVITY)
     return {
-        "viscous_force": point.force,
+        limited_name(plan): point.force,
         LIMIT.name: float(point.limit),
         radius: point.radius,
         void: point.void,
@@ -227,33 +250,33 @@ def torn_row(point: TornPoint) -> dict[str, float]:
 
 def simulated(plan: Plan) -> list[str]:
     """Names of the curves that the effects of a plan give at each gap and speed."""
-    names = [column.name for column in plan.film.static_columns]
-    if plan.film.has_viscous:
-        names += ["viscous_force", "newtonian_force"]
-    if plan.film.is_limited:
+    film = plan.film
+    names = [column.name for column in film.columns]
+    names += [kind.newtonian.name for kind in film.laws if kind.newtonian is not None]
+    if film.is_limited:
         names.append(LIMIT.name)
-    if plan.film.cavity is not None:
+    if film.cavity is not None:
         names += [column.name for column in CAVITY]
     return names
 
 
+def impulses_so_far(plan: Plan) -> list[str]:
+    """Names of the curves of impulses up to each point."""
+    return [kind.so_far.name for kind in plan.film.laws if kind.so_far is not None]
+
+
 def _forces(plan: Plan, gap: float, speed: float) -> dict[str, float]:
     film, broken = plan.acting_film(gap), gap > plan.film.end
-    row = {column.name: 0.0 for column in plan.film.static_columns}
-    newtonian, viscous, limit = 0.0, 0.0, LimitKind.NONE
+    row = dict.fromkeys(simulated(plan), 0.0)
+    pull, limit = 0.0, LimitKind.NONE
     if film is not None:
-        row |= film.static_forces(gap)
-        newtonian, (viscous, limit) = (
-            film.newtonian_force(gap, speed),
-            film.viscous_force(gap, speed),
-        )
+        found = film.at(gap, speed)
+        row |= found.named | found.newtonian
+        pull, limit = sum(found.named.values()), found.limit
     whole = FilmStatus.FULL if gap <= plan.film.full_gap else FilmStatus.BRIDGE
     return row | {
-        "pull": sum(row.values()) + viscous,
-        "viscous_force": viscous,
-        "newtonian_force": newtonian,
+        "pull": pull,
         LIMIT.name: float(limit),
-        **{column.name: 0.0 for column in CAVITY},
         "film_status": float(FilmStatus.BROKEN if broken else whole),
     }
 
@@ -279,18 +302,26 @@ def _running(
     return found
 
 
-def newtonian_impulses(plan: Plan) -> dict[str, float]:
-    """Impulse [N.s] of the film without limits; no path in time changes it."""
-    loading, film = plan.scene.loading, plan.film
-    value = film.newtonian_impulse(loading.initial_gap, min(loading.final_gap, film.end))
-    return {"viscous_impulse": value, "newtonian_impulse": value}
+def impulses_of_gaps(plan: Plan) -> dict[str, float]:
+    """Impulse [N.s] of each force that is proportional to speed, which no path in time changes.
+
+    Without the limits of the liquid; of a force that they may bound under both its names.
+    """
+    loading, found = plan.scene.loading, {}
+    for kind, law in plan.film.laws.items():
+        if law.rate == "proportional":
+            last = min(loading.final_gap, _end(plan, kind))
+            value = law_impulse(law, loading.initial_gap, last)
+            columns = (kind.column, kind.newtonian)
+            found |= {column.impulse.name: value for column in columns if column is not None}
+    return found
 
 
 def within_time(plan: Plan, loading: ImposedTime, begun: float) -> SeparationResult:
     """Impulse and mean force of an opening of which only the duration is given."""
     gaps = _grid(plan)
     columns = _within_time(plan, gaps)
-    impulses = newtonian_impulses(plan) if plan.has(ViscousForce) else {}
+    impulses = impulses_of_gaps(plan)
     validity = check(plan, columns)
     work = Work(0, 0, len(gaps), clock.perf_counter() - begun)
     message = f"opening from {gaps[0]:g} m to {gaps[-1]:g} m within {loading.time:g} s{broke(plan)}"
@@ -302,11 +333,14 @@ def within_time(plan: Plan, loading: ImposedTime, begun: float) -> SeparationRes
 
 def _within_time(plan: Plan, gaps: Sequence[float]) -> dict[str, Curve]:
     """Curves at some gaps [m] where only the duration is given."""
-    static = [column.name for column in plan.film.static_columns]
+    film = plan.film
+    static = [column.name for column in film.static_columns]
     rows = [_forces(plan, gap, 0.0) for gap in gaps] if static else []
     columns = {"gap": frozen(gaps)}
     columns |= {name: frozen([row[name] for row in rows]) for name in static}
-    if plan.has(ViscousForce):
-        impulse, last = plan.film.newtonian_impulse, plan.film.end
-        columns["viscous_impulse"] = frozen([impulse(gaps[0], min(gap, last)) for gap in gaps])
+    for kind, law in film.laws.items():
+        if kind.so_far is not None and law.rate == "proportional":
+            last = _end(plan, kind)
+            running = [law_impulse(law, gaps[0], min(gap, last)) for gap in gaps]
+            columns[kind.so_far.name] = frozen(running)
     return columns

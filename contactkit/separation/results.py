@@ -148,8 +148,6 @@ class SeparationResult(CurveResult):
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return the numbers of the run, each with its unit."""
         found = {name: (value, "N.s") for name, value in self.impulses.items()}
-        if isinstance(self.plan.scene.loading, ImposedTime) and self.has(ViscousForce):
-            found["mean_viscous_force"] = (self.mean_viscous_force, "N")
         for effect in effects_of(self.plan.scene):
             found |= effect.scalars(self)
         if self.state is not None:

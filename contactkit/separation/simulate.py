@@ -13,13 +13,12 @@ from ..scene.plan import check_plan
 from ..units import quantity_text
 from ..validity import warn
 from .curve_result import Work
-from .effects.registry import ViscousForce
 from .first_closing import closed_first
 from .motion.advance import advance, internal_step
 from .motion.state import MotionState, acting_film, outputs, start
 from .motion_curves import at_steps, motion_curves, pull_law
 from .plan import Plan
-from .prescribed import at_speed, newtonian_impulses, within_time
+from .prescribed import at_speed, impulses_of_gaps, within_time
 from .results import SeparationResult
 from .sliding.plan import SlidingPlan
 from .sliding.result import SlidingResult
@@ -161,7 +160,8 @@ def _spring_holds(plan: Plan, states: list[MotionState], pull: Callable[[float],
     """Whether a spring keeps the mass from `final_gap` for good: its energy does not reach there.
 
     Films and contacts only take energy. Left out are what may give some: a pull that still rises,
-    forces that push the bodies apart, and a film that wets them again in between.
+    forces that push the bodies apart or the way they move, and a film that wets them again in
+    between.
     """
     state, loading = states[-1], plan.scene.imposed_force
     k, force = loading.stiffness, loading.force
@@ -169,8 +169,10 @@ def _spring_holds(plan: Plan, states: list[MotionState], pull: Callable[[float],
         return False
     if _energy_left(plan, state) >= -1e-6 * abs(force) * (loading.final_gap - state.gap):
         return False
-    is_given = plan.scene.meniscus.rewetting > 0.0 or _pushes(plan, loading)
-    return not (plan.film.static_columns and is_given)
+    # What comes back with the film gives energy only if it pulls at rest, as a meniscus does.
+    returns = (k.needs_film and law.rate != "proportional" for k, law in plan.film.laws.items())
+    rewets = plan.scene.meniscus.rewetting > 0.0 and any(returns)
+    return not (rewets or _pushes(plan, loading))
 
 
 def _energy_left(plan: Plan, state: MotionState) -> float:
@@ -183,10 +185,18 @@ def _energy_left(plan: Plan, state: MotionState) -> float:
 
 
 def _pushes(plan: Plan, loading: ImposedForce) -> bool:
-    """Whether a film, or solids, push the bodies apart at a gap on the way."""
-    gap = max(loading.initial_gap, 1e-6 * loading.final_gap)
+    """Whether a force pushes the bodies apart at a gap on the way, or the way they move."""
+    gap, film = max(loading.initial_gap, 1e-6 * loading.final_gap), plan.film
     ratio = (loading.final_gap / gap) ** (1.0 / 32.0)
-    return any(plan.film.static_force(gap * ratio**i) < 0.0 for i in range(33))
+    gaps = [gap * ratio**i for i in range(33)]
+    # About the most that the pull gives a mass on this way; without one nothing is moved by itself.
+    travel = loading.final_gap - loading.initial_gap
+    speed = math.sqrt(abs(loading.force) * travel / loading.mass) if loading.mass else 0.0
+    return any(
+        film.static_force(place) < 0.0
+        or any(film.viscous_force(place, v)[0] * v < 0.0 for v in (speed, -speed))
+        for place in gaps
+    )
 
 
 def _motion_result(
@@ -197,9 +207,7 @@ def _motion_result(
     problem: str | None,
 ) -> SeparationResult:
     last = states[-1]
-    impulses = dict(last.impulses)
-    if plan.has(ViscousForce):
-        impulses = newtonian_impulses(plan) | impulses
+    impulses = impulses_of_gaps(plan) | dict(last.impulses)
     status, message = _outcome(plan, last, pull(last.time), problem)
     message += _rupture(states)
     if problem is None:
@@ -207,11 +215,12 @@ def _motion_result(
             plan.scene.imposed_force, (state.gap for state in states), plan.film
         )
     work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
-    along, force = at_steps(plan, states, pull)
+    shown = [outputs(plan, state, pull(state.time)) for state in states]
+    along, force = at_steps(states, shown)
     validity = check(plan, along)
     # The motion knows its peak between the steps too.
     extremes = {"peak_repulsion": max(-float(force.min()), 0.0)}
-    curves = motion_curves(plan, states)
+    curves = motion_curves(plan, states, shown)
     return SeparationResult(plan, status, message, curves, impulses, last, validity, work, extremes)
 
 
@@ -244,7 +253,10 @@ def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) ->
             "spring or a smaller final_gap",
         )
     held = outputs(plan, last, pull).static
-    what = " and ".join(column.label for column in plan.film.static_columns)
+    film = acting_film(plan, last)
+    acting = film.static_forces(last.gap) if film is not None else {}
+    columns = plan.film.static_columns
+    what = " and ".join(c.label for c in columns if acting.get(c.name) or len(columns) == 1)
     return (
         "stuck",
         f"stuck: the pull of {pull:.4g} N does not exceed the {held:.4g} N of the "

@@ -25,9 +25,9 @@ from ..scene.loading import ImposedSpeed, Vibration
 from ..units import quantity_text
 from .curve_result import Work
 from .effects.base import LIMIT, FilmStatus, LimitKind
-from .effects.registry import ViscousForce
+from .effects.force_law import law_impulse
 from .plan import Plan
-from .prescribed import frozen, simulated, torn_row
+from .prescribed import frozen, limited_name, simulated, torn_row
 from .results import SeparationResult, extremes_of, with_late_curves
 from .torn_cycles import TornCycles, torn_cycles
 from .torn_path import TornPoint
@@ -192,9 +192,10 @@ def vibrating(
     columns = _curves(plan, path, cycles, starts, torn)
     impulses = {plan.columns[name].impulse.name: total for name, total in totals.items()}
     impulses["steady_pull_impulse"] = _steady_impulse(plan, path, end, torn)
-    if plan.has(ViscousForce):
-        newtonian = film.newtonian_impulse(path.gap(0.0), path.gap(end))
-        impulses["newtonian_impulse"] = newtonian
+    for kind, law in film.laws.items():
+        if kind.newtonian is not None:
+            newtonian = law_impulse(law, path.gap(0.0), path.gap(end))
+            impulses[kind.newtonian.impulse.name] = newtonian
     n = len(columns["gap"]) + len(cycles) * PANELS * NODES
     return SeparationResult(
         plan,
@@ -271,11 +272,7 @@ def _forces(
     plan: Plan, gap: float, speed: float, torn: TornPoint | None = None
 ) -> dict[str, float]:
     """Each force [N] at a gap and a speed by the name of its column, and the pull."""
-    found = dict(plan.film.static_forces(gap))
-    if torn is not None:
-        found["viscous_force"] = torn.force
-    elif plan.has(ViscousForce):
-        found["viscous_force"] = plan.film.viscous_force(gap, speed)[0]
+    found = plan.film.at(gap, speed, torn.force if torn is not None else None).named
     return found | {"pull": sum(found.values())}
 
 
@@ -287,7 +284,7 @@ def _onsets(plan: Plan, path: VibrationPath, edges: list[float]) -> list[float]:
         return found
 
     def acting(time: float) -> LimitKind:
-        return film.viscous_force(path.gap(time), path.speed(time))[1]
+        return film.limited_force(path.gap(time), path.speed(time))[1]
 
     for low, high in pairwise(edges):
         first = acting(low)
@@ -314,9 +311,9 @@ def _cycle(
         force = np.array([row[name] for row in rows]).reshape(times.shape)
         running[name] = np.concatenate([[0.0], np.cumsum((weights * force).sum(axis=1))])
     if torn is not None:
-        viscous = torn.running(edges)
-        running["pull"] += viscous - running["viscous_force"]
-        running["viscous_force"] = viscous
+        viscous, name = torn.running(edges), limited_name(plan)
+        running["pull"] += viscous - running[name]
+        running[name] = viscous
     return _Cycle(edges, running)
 
 
@@ -371,12 +368,14 @@ def _curves(
         "steady_pull": frozen(steady),
         "film_status": frozen([row["film_status"] for row in rows]),
     } | {name: frozen([row[name] for row in rows]) for name in simulated(plan)}
-    if plan.has(ViscousForce):
-        parts = [
-            begun + cycle.running["viscous_force"][:size]
-            for begun, cycle, size in zip(starts["viscous_force"], cycles, sizes, strict=True)
-        ]
-        columns["viscous_impulse"] = frozen(np.concatenate(parts))
+    for kind in plan.film.laws:
+        if kind.so_far is not None:
+            name = kind.column.name
+            parts = [
+                begun + cycle.running[name][:size]
+                for begun, cycle, size in zip(starts[name], cycles, sizes, strict=True)
+            ]
+            columns[kind.so_far.name] = frozen(np.concatenate(parts))
     return columns
 
 
@@ -398,11 +397,10 @@ def _cycle_means(
 def _row(plan: Plan, gap: float, speed: float, torn: TornPoint | None) -> dict[str, float]:
     """What the curves show at a gap and a speed."""
     film = plan.film
-    row = _forces(plan, gap, speed, torn)
-    if plan.has(ViscousForce):
-        row["newtonian_force"] = film.newtonian_force(gap, speed)
-    row[LIMIT.name] = float(film.viscous_force(gap, speed)[1])
-    row |= torn_row(torn) if torn is not None else {}
+    found = film.at(gap, speed, torn.force if torn is not None else None)
+    row = found.named | found.newtonian
+    row["pull"], row[LIMIT.name] = sum(found.named.values()), float(found.limit)
+    row |= torn_row(plan, torn) if torn is not None else {}
     row["film_status"] = float(FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE)
     return row
 
@@ -425,6 +423,6 @@ def _steady_impulse(plan: Plan, path: VibrationPath, end: float, torn: TornCycle
         for a, b in pairwise(edges.tolist()):
             for node, weight in zip(*gauss_legendre(NODES), strict=True):
                 found = _forces(plan, a + node * (b - a), path.rise)
-                pull = found["pull"] - (found["viscous_force"] if torn is not None else 0.0)
+                pull = found["pull"] - (found[limited_name(plan)] if torn is not None else 0.0)
                 total += weight * (b - a) * pull / path.rise
     return total + (torn.steady_impulse if torn is not None else 0.0)

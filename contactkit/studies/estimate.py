@@ -22,7 +22,9 @@ from .study_file import StudyWriter
 
 __all__ = ["StudyPlan", "plan_study"]
 
-_COPIES = 1000  # rows that the size of one is measured on
+# Rows that the size of one is measured on: SQLite grows by pages of 4 KiB, of which a thousand rows
+# of 100 bytes fill 25, so that the last one, partly empty, is an error of 4 % at most.
+_COPIES = 1000
 
 
 class StudyPlan(NamedTuple):

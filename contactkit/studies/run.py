@@ -87,7 +87,7 @@ class _Chain:
         """Start anew, after a solve that ended in the middle."""
         self._plan, self._contacts = None, ContactChain()
 
-    def run(self, scene: Scene, accuracy: Accuracy) -> AnyResult:
+    def run(self, scene: Scene, accuracy: Accuracy) -> Any:
         if not isinstance(scene, ContactScene):
             return run(plan(scene, accuracy))
         made = unprepared_plan(scene, accuracy)
@@ -174,8 +174,13 @@ def _solved(chain: _Chain, piece: Piece, task: Task) -> tuple[StudyPoint, AnyRes
 BEGUN = "begun"
 """First report of a worker; those after it are finished points."""
 
-_LONG = 10.0  # seconds of a piece on a client: what an interrupted study loses at most
-_REPORT = 2**15  # bytes of a report: half of what a pipe of Linux or macOS holds
+# Seconds of a piece on a client, after which what is done is sent back and the rest submitted
+# again: an interrupted study loses no more. Shorter ones would mean more traffic.
+_LONG = 10.0
+# Bytes of a report. A writer of more than a pipe holds (2**16 on Linux and macOS) waits for a
+# reader, and one that dies meanwhile leaves half a report behind; larger results return with the
+# piece.
+_REPORT = 2**15
 
 _worker: dict[str, Any] = {}
 

@@ -25,7 +25,9 @@ from .study import Study, study
 
 __all__ = ["Influence", "Range", "Sensitivity", "sensitivity"]
 
-_WIDE = 10.0  # ratio of the ends of a range from which the values between are spaced by ratios
+# Ratio of the ends of a range from which the values between are spaced by ratios: five equal steps
+# over a decade or more leave its lower third, in logarithms more than half of it, without a value.
+_WIDE = 10.0
 _Row = tuple[Any, ...]
 
 

@@ -31,8 +31,10 @@ __all__ = ["run_here", "run_in_processes", "run_on_client"]
 Take = Callable[[Done], None]
 """Takes a finished point; one whose maps arrive later is taken twice, first without them."""
 
-_AHEAD = 3  # pieces under way for each that can run at once: nobody waits, and few are in memory
-_TICK = 0.1  # seconds between looks at what the workers report
+# Pieces submitted for each that can run at once: with one a worker waits until its next is sent,
+# with many an interrupted study has more to wait for, and more of them are in memory.
+_AHEAD = 3
+_TICK = 0.1  # seconds between looks at what the workers report: seen as at once, and no load
 _DIED = (
     "a worker process ended before its points did, for lack of memory or because the script starts "
     "the study outside `if __name__ == '__main__':`"

@@ -27,8 +27,10 @@ if TYPE_CHECKING:
 
 __all__ = ["FAILED", "Store", "StudyPoint", "scene_key"]
 
-_FORMAT = 3
-_OLD = 3600.0  # seconds after which the incomplete files of a killed run are removed
+_FORMAT = 3  # of the files: part of every key, so that older ones are never found
+# Seconds after which incomplete files are taken for those of a killed run and removed: writing one
+# takes less than a minute even on a slow network disk, and another run may be at it.
+_OLD = 3600.0
 
 FAILED = ("infeasible", "not converged", "refused", "failed")
 """Statuses of points without a solution."""

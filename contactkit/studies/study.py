@@ -25,6 +25,7 @@ from ..errors import (
 from ..files.results import from_bytes
 from ..planning import plan
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
+from ..scene.scenes import Scene as AnyScene
 from .paths import Axis, Scene, Vary, axes, changed, combinations
 from .run import Done, Piece, Task, put
 from .spread import run_here, run_in_processes, run_on_client
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
     from ..separation.results import SeparationResult
     from ..separation.sliding.result import SlidingResult
 
+# A point that kills its worker does so again; two tries are for those beside it in the same
+# process.
 RETRIES = 2
 """How often a point is solved again whose worker died, or which lacked memory or disk."""
 
@@ -189,7 +192,7 @@ def study(
 
 def check_kind(scene: object) -> None:
     """Refuse what is no scene."""
-    if not isinstance(scene, ContactScene | SeparationScene | SlidingScene):
+    if not isinstance(scene, AnyScene):
         raise DescriptionError(
             "scene", scene, "be a ContactScene, a SeparationScene or a SlidingScene"
         )

@@ -32,18 +32,20 @@ if TYPE_CHECKING:
 
 __all__ = ["FailedRow", "StudyFile", "StudyWriter"]
 
-_FORMAT = 1
-_APPLICATION = 0x636B7374  # of the head of a database: "ckst"
+_FORMAT = 1  # of the tables; a file of another one is refused
+_APPLICATION = 0x636B7374  # application_id in the head of a database: "ckst"
 _TABLES = {
     "header": "key TEXT PRIMARY KEY, value TEXT",
     "units": "name TEXT PRIMARY KEY, unit TEXT",
     "points": "place INTEGER PRIMARY KEY, status TEXT, message TEXT, notes TEXT",
 }
-_STATUS = 16  # letters of a status
-_TEXT = 10_000  # letters of a message that are written
-_LONGEST = 10**9  # bytes that SQLite lets one ask for
+_STATUS = 16  # letters of a status; the longest in use has 13
+_TEXT = 10_000  # letters of a message that are written: a file of failed points stays small
+_LONGEST = 10**9  # bytes: SQLITE_MAX_LENGTH as SQLite is built by default
 _OWN = ("place", "status", "message", "notes")
-_PAUSE = 0.25  # seconds between writes to the disk, some 5 ms each, at least
+# Seconds between commits at least. Each takes some 5 ms (fsync), 2 % of the time; what is not
+# committed is lost if the process is killed.
+_PAUSE = 0.25
 
 
 class FailedRow(NamedTuple):

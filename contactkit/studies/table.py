@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Study", "StudyLine", "as_text", "study_contents"]
 
-_MAX_COLUMNS = 6  # of a table without named columns
+_MAX_COLUMNS = 6  # of a table without named columns; more do not fit beside the parameters
 _ROUND_OFF = 1e-6  # change over the largest value; a solve is right to its rtol of 1e-8 or better
 # Ends of names that tables and figures leave out: measures of the solve, and the ends of bands.
 _NOT_TELLING = ("residual", "energy", *(end for end in BAND if end))
-_WIDEST = 40  # characters of a value without a name
+_WIDEST = 40  # characters of a value without a name; two of them fit into a line of a terminal
 
 
 class StudyLine(NamedTuple):

@@ -6,7 +6,6 @@ of the processor on one thread.
 
 from __future__ import annotations
 
-import math
 import sys
 import time
 import warnings
@@ -19,8 +18,7 @@ from validation_tables import grid
 
 import contactkit as ck
 from contactkit.adhesion import maugis_dugdale
-from contactkit.adhesion.parameters import scales
-from contactkit.analyses.pull_off import PullOffCurve
+from contactkit.benchmarks.contact_studies import SPHERES, UNITS, adhesive_sphere
 from contactkit.plot import adhesion as curves
 from contactkit.plot import style as plot
 
@@ -31,15 +29,6 @@ LEVELS = {
     "isolated": (-12e-9, 2e-9),
     "periodic": (-4e-9, 0.0),
     "periodic, 100 nm on a rigid base": (-8e-9, 2e-9),
-}
-UNITS = scales(RADIUS, WORK, MODULUS)
-# Maugis parameter: window and levels, in the units of Maugis.
-SPHERES = {
-    0.1: (9.0, -0.4, 0.2, 13),
-    0.5: (6.0, -1.0, 0.1, 12),
-    1.0: (5.0, -1.1, 0.0, 12),
-    2.0: (5.0, -1.1, 0.0, 12),
-    5.0: (5.0, -1.1, 0.0, 12),
 }
 
 
@@ -55,16 +44,6 @@ def scene(
     )
 
 
-def sphere(transition: float, pixels: int) -> PullOffCurve:
-    """Curve of a sphere of a Maugis parameter."""
-    width, low, high, count = SPHERES[transition]
-    stress = 0.5 * transition * (math.pi * WORK * (4 / 3 * MODULUS) ** 2 / RADIUS) ** (1 / 3)
-    law = ck.DugdaleAttraction(work_of_adhesion=WORK, range=WORK / stress)
-    window = ck.Window(width=width * UNITS.radius, periodic=False)
-    plan = ck.plan(scene(ck.Paraboloid(radius=RADIUS), law, window), ck.Accuracy(grid=pixels))
-    return ck.pull_off_curve(plan, np.linspace(low, high, count) * UNITS.approach)
-
-
 def spheres() -> str:
     """Pull-off of spheres against Maugis-Dugdale, and what the curves cost."""
     rows = []
@@ -73,7 +52,7 @@ def spheres() -> str:
         row = [f"{transition:g}", f"{-exact:.4f}"]
         for pixels in (64, 128):
             begin = time.process_time()
-            found = sphere(transition, pixels)
+            found = adhesive_sphere(transition, pixels)
             seconds = time.process_time() - begin
             error = -found.pull_off_force / UNITS.load / exact - 1.0
             states = found.approaching.load.size + found.separating.load.size - 1
@@ -88,7 +67,7 @@ def spheres() -> str:
 
 def rough(
     rms: float, pixels: int = 64, count: int = 17, *, edges: str = "periodic"
-) -> PullOffCurve:
+) -> ck.PullOffCurve:
     """Curve of a self-affine map of eight pixels per shortest wave."""
     on_base = ck.Stack(
         layers=(ck.Layer(material=SOLID, thickness=1e-7),), substrate=ck.RigidBase(bonded=True)
@@ -128,7 +107,7 @@ def steps() -> str:
 def pictures() -> None:
     """Draw a sphere and a rough map."""
     figure, (left, right) = plot.figure(1, 2, size=(11.0, 4.6))
-    curves.pull_off_curve(sphere(2.0, 64), left)
+    curves.pull_off_curve(adhesive_sphere(2.0, 64), left)
     plot.title(left, "sphere, Maugis parameter 2")
     curves.pull_off_curve(rough(0.6e-9, 64, 25), right)
     plot.title(right, "rough map, rms slope 0.02")

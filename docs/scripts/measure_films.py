@@ -29,7 +29,7 @@ IMG = Path(__file__).parents[1] / "img"
 
 def squeeze(face: Face, gap: object = GAP) -> float:
     """Force of a full film."""
-    film = reynolds.Film(face=face, viscosity=OIL)
+    film = reynolds.GridFilm(face=face, viscosity=OIL)
     return reynolds.solve_pressure(film, gap, RATE).force
 
 
@@ -112,9 +112,7 @@ def cavity() -> str:
         exact = ratio * math.pi * R**2 * 1e6
         row, counts = [f"disc, {sigma:g} times the onset"], []
         for n in SIZES:
-            film = reynolds.Film(
-                face=reynolds.rasterise(DISC, n), viscosity=OIL, cavity_pressure=-1e6
-            )
+            film = reynolds.GridFilm(face=reynolds.rasterise(DISC, n), viscosity=OIL, drop=1e6)
             speed = sigma * reynolds.disc_damping(R).onset_speed(5e-6, 1e6, OIL)
             start = reynolds.at_rest(film, 5e-6)
             state = reynolds.step_film(start, 5e-6 + speed * 1e-12, 1e-12)
@@ -139,8 +137,8 @@ def cost() -> str:
     rows = []
     for n in (64, 128, 256, 512):
         face = reynolds.rasterise(DISC, n)
-        film = reynolds.Film(face=face, viscosity=OIL, cavity_pressure=-1e6)
-        full = reynolds.Film(face=face, viscosity=OIL)
+        film = reynolds.GridFilm(face=face, viscosity=OIL, drop=1e6)
+        full = reynolds.GridFilm(face=face, viscosity=OIL)
         repeats = 8 if n < 512 else 2
         solved = least(lambda full=full: reynolds.solve_pressure(full, GAP, RATE), repeats)
         rest = reynolds.at_rest(film, 5e-6)
@@ -170,11 +168,27 @@ def holed_face(cells: int) -> Face:
     return reynolds.rasterise(DISC, cells, holes=holes)
 
 
+def injector_disc() -> ck.SeparationResult:
+    """Disc of 20 g that is pulled off a film of 5 um with 40 N, and cavitates at 10 bar."""
+    scene = ck.SeparationScene(
+        interface=ck.Interface(
+            upper=ck.Flat(radius=R),
+            meniscus=ck.Meniscus(liquid=ck.Liquid(name="oil", viscosity=OIL)),
+        ),
+        loading=ck.ImposedForce(initial_gap=5e-6, final_gap=25e-6, force=40.0, mass=0.02),
+        effects=(
+            ck.ViscousForce(),
+            ck.TensionLimit(strength=1e6, cavity_pressure=101_325.0 - 1e6),
+        ),
+    )
+    return ck.simulate(ck.plan(scene))
+
+
 def pictures() -> None:
     """Draw the pictures of the page."""
     from contactkit.plot import film as film_plot
 
-    film = reynolds.Film(face=holed_face(128), viscosity=OIL, cavity_pressure=-1e6)
+    film = reynolds.GridFilm(face=holed_face(128), viscosity=OIL, drop=1e6)
     period = 1e-3
 
     def gap(t: float) -> float:
@@ -186,8 +200,10 @@ def pictures() -> None:
     film_plot.instants(shown).savefig(IMG / "film-instants.png")
     film_plot.animate(states[1:76:3], IMG / "film-opening.gif", rate=8.0)
     quarter = reynolds.rasterise(DISC, 64, window=(0.0, R, 0.0, R))
-    film = reynolds.Film(face=quarter, viscosity=OIL, cavity_pressure=-1e6)
-    steps = list(reynolds.pull_apart(film, 5e-6, mass=0.02, force=40.0, final=2e-5, copies=4))
+    film = reynolds.GridFilm(face=quarter, viscosity=OIL, drop=1e6)
+    pulled = injector_disc()
+    times, gaps = pulled["time"], pulled["gap"]
+    steps = list(reynolds.follow_gap(film, lambda t: float(np.interp(t, times, gaps)), times))
     film_plot.opening(steps, copies=4)[0].figure.savefig(IMG / "film-pull.png")
     for name in ("film-instants", "film-pull"):
         picture = IMG / f"{name}.png"

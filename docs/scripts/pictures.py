@@ -31,7 +31,8 @@ SHOWN_EXAMPLES = (
     "loading_history",
     "rubbed_sphere",
 )  # their figures, by the names of their files
-# (scene, command): figures by the name they have in the pages.
+# (scene, command): figures by the name they have in the pages; with + beside each other, with /
+# one below the other.
 SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
     ("fuel-injector", "run"): {
         name: name
@@ -50,14 +51,15 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
         "force-gap": "mirror-force-gap",
     },
     ("head-disk", "run"): {
-        "contact": "head-disk-contact",
-        "stress": "head-disk-stress",
-        "stack": "head-disk-stack",
-        "load-curve": "head-disk-load-curve",
+        "pressure + areas": "head-disk-contact",
+        "stress / stress-close-up": "head-disk-stress",
+        "upper-stack / stack": "head-disk-stack",
+        "study": "head-disk-load-curve",
     },
     ("head-disk", "cost"): {"cost": "head-disk-cost"},
 }
-CURVES = ("wet-film-reported-only", "wet-film-pulls-too")
+CURVES = {"wet-film-reported-only": "False", "wet-film-pulls-too": "True"}
+SELF_CONSISTENT = "effects.film-meniscus.self_consistent [-]"  # tells them apart
 COLUMNS = {  # of a load curve: heading and factor
     "loading.pressure": ("mean pressure [MPa]", 1e-6),
     "max_pressure": ("maximum pressure [GPa]", 1e-9),
@@ -102,9 +104,10 @@ def head_disk_numbers(scalars: Mapping[str, Mapping[str, float]]) -> str:
     return grid(("what", "value", "where"), rows)
 
 
-def load_curve(text: str) -> str:
+def load_curve(text: str, self_consistent: str) -> str:
     """Load curve from the CSV file that the run wrote."""
-    rows = list(csv.DictReader(io.StringIO(text)))
+    every = csv.DictReader(io.StringIO(text))
+    rows = [row for row in every if row[SELF_CONSISTENT] == self_consistent]
     found = {name: next(k for k in rows[0] if k.startswith(f"{name} [")) for name in COLUMNS}
     cells = [
         [f"{float(row[found[name]]) * factor:.3g}" for name, (_, factor) in COLUMNS.items()]
@@ -135,9 +138,26 @@ def _number(text: str, digits: str) -> str:
 def keep(folder: Path, names: Mapping[str, str], colours: int = 128) -> None:
     """Keep some figures of a run, small by a palette of so many colours."""
     for name, kept in names.items():
-        with Image.open(folder / f"{name}.png") as figure:
-            small = figure.convert("RGB").quantize(colours, dither=Image.Dither.NONE)
-            small.save(IMG / f"{kept}.png", optimize=True)
+        figure = joined(folder, name)
+        small = figure.quantize(colours, dither=Image.Dither.NONE)
+        small.save(IMG / f"{kept}.png", optimize=True)
+
+
+def joined(folder: Path, name: str) -> Image.Image:
+    """A figure of a folder, or two: beside each other by +, one below the other by /."""
+    below = " / " in name
+    parts = [
+        Image.open(folder / f"{one}.png").convert("RGB")
+        for one in name.split(" / " if below else " + ")
+    ]
+    widths, heights = zip(*(one.size for one in parts), strict=True)
+    size = (max(widths), sum(heights)) if below else (sum(widths), max(heights))
+    whole = Image.new("RGB", size, "white")
+    place = 0
+    for one in parts:
+        whole.paste(one, (0, place) if below else (place, 0))
+        place += one.height if below else one.width
+    return whole
 
 
 def run(scene: str, command: str, folder: Path) -> str:
@@ -154,9 +174,9 @@ def blocks(command: str, folder: Path, printed: str) -> Mapping[str, str]:
         return {"head-disk cost": f"{COST_PICTURE}\n\n{table}"}
     curves = {
         f"head-disk load curve, {name}": load_curve(
-            (folder / f"load-curve-{name}.csv").read_text("utf-8")
+            (folder / "study.csv").read_text("utf-8"), value
         )
-        for name in CURVES
+        for name, value in CURVES.items()
     }
     return {"head-disk numbers": head_disk_numbers(json.loads(printed)), **curves}
 

@@ -12,13 +12,17 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from enum import IntEnum
 from functools import reduce
-from typing import Any, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 
 from attrs import evolve, field, fields, frozen, has
+
+if TYPE_CHECKING:
+    from ...liquids.liquid import LiquidState
 
 __all__ = ["Difference", "Place", "differences", "in_parameters", "read", "write"]
 
 _T = TypeVar("_T")
+_LIQUID = "interface.meniscus.liquid."
 
 
 def _as_tuple(paths: str | tuple[str, ...]) -> tuple[str, ...]:
@@ -51,10 +55,17 @@ class Place:
         """Last names of the paths."""
         return frozenset(path.rpartition(".")[2] for path in self.paths)
 
-    def read(self, scene: Any) -> Any:
-        """Value of the parameter for a scene; that of an enumeration is the name of its member."""
+    def read(self, scene: Any, liquid: LiquidState | None = None) -> Any:
+        """Value of the parameter for a scene; that of an enumeration is the name of its member.
+
+        Properties of a liquid are those it has at the temperature of the scene.
+        """
         owner = scene if self.effect is None else scene.effect(self.effect)
-        found = [] if owner is None else [reduce(getattr, p.split("."), owner) for p in self.paths]
+        if liquid is not None and self.paths[0].startswith(_LIQUID):
+            found = [liquid.given(name) for name in self.fields]
+        else:
+            paths = self.paths if owner is not None else ()
+            found = [reduce(getattr, path.split("."), owner) for path in paths]
         value = min((one for one in found if one is not None), default=self.nothing)
         member = next((one for one, text in self.words.items() if text == value), value)
         return member.name if isinstance(member, IntEnum) else member
@@ -66,9 +77,11 @@ class Place:
         return self.words.get(value, value)
 
 
-def read(places: Mapping[str, Place], scene: Any) -> dict[str, Any]:
-    """Values of the parameters for a scene."""
-    return {name: place.read(scene) for name, place in places.items()}
+def read(
+    places: Mapping[str, Place], scene: Any, liquid: LiquidState | None = None
+) -> dict[str, Any]:
+    """Values of the parameters for a scene, whose liquid is that of a state if one is given."""
+    return {name: place.read(scene, liquid) for name, place in places.items()}
 
 
 def write(places: Mapping[str, Place], scene: _T, values: Mapping[str, Any]) -> _T:
@@ -141,9 +154,12 @@ def differences(given: Any, held: Any, free: Collection[str] = ()) -> list[Diffe
     given, held : scene
         What was given, and what `write` makes of its parameters.
     free : collection of str
-        Dotted names of fields that may differ, as they are no part of what is represented.
+        Dotted names of fields that may differ with all of theirs, as they are no part of what is
+        represented.
     """
-    return [one for one in _differences(given, held, "") if one.path not in free]
+    below = tuple(f"{path}." for path in free)
+    found = _differences(given, held, "")
+    return [one for one in found if one.path not in free and not one.path.startswith(below)]
 
 
 def _differences(given: Any, held: Any, path: str) -> Iterator[Difference]:

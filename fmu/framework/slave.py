@@ -26,7 +26,7 @@ from ...errors import ContactkitError
 from .access import PortAccess
 from .description import Description, model_description
 from .places import Place, in_parameters
-from .ports import STEP_LIMIT, TOLERANCE
+from .ports import STEP_LIMIT, TOLERANCE, Value
 from .state import Phase, Snapshot, check_state, from_bytes, plain, to_bytes
 
 __all__ = ["PortSlave"]
@@ -87,6 +87,16 @@ class PortSlave(PortAccess):
         self._enter(Phase.INSTANTIATED)
 
     # hooks -----------------------------------------------------------------------------------
+
+    @classmethod
+    def check_start(cls, values: Mapping[str, Value]) -> None:
+        """Refuse start values that contradict each other, when an FMU is built.
+
+        Raises
+        ------
+        DescriptionError
+            Naming the two.
+        """
 
     def prepare(self) -> None:
         """Build what follows from the parameters, and set the outputs at the start.

@@ -163,7 +163,7 @@ def _more(name: str, zig: bool) -> list[str]:
         return [f"-Wl,-install_name,@rpath/kernel{PLATFORMS[name].suffix}"]
     if not (zig and name.startswith("windows")):
         return ["-lm"]
-    # zig would first compile 440 files of MinGW, for minutes: native/windows.c takes their place
+    # zig would first compile 440 files of MinGW, for minutes: kernel/windows.c takes their place
     found = importlib.util.find_spec("ziglang")
     home = Path(found.origin).parent if found and found.origin else Path()
     headers = home / "lib" / "libc" / "include" / "any-windows-any"

@@ -16,10 +16,15 @@ from .sides import FilmSide, Pull, Pulling, Reaction
 
 __all__ = ["Goal", "Walk"]
 
-_SAME = 1e-9  # gaps closer than this, relatively, are one
+# Gaps closer than this, relatively, are one. A step that ends at an event is put on its gap; FMUs
+# state the next one with their own round-off, which must not make an event of zero length.
+_SAME = 1e-9
+# In a row. A step that shrinks by 0.9 each time is then 500 times shorter, by 0.1 long at
+# round-off.
 _MOST_REJECTED = 60
-_NOT_LOCATED = 16.0  # error of a step that does not find the gap of an event
-_REST = 0.02  # fraction of the final time of a step at rest
+# Error of a step that does not find the gap of an event: the next is 0.4 times as long.
+_NOT_LOCATED = 16.0
+_REST = 0.02  # fraction of the final time of a step at rest: fifty points of a pull that only rises
 
 
 class Goal(NamedTuple):

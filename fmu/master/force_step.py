@@ -19,8 +19,12 @@ from .sides import FilmSide, Force, Pull, Pulling
 
 __all__ = ["forced"]
 
-_NEARER = 0.99  # ratio of gaps between which the exponent of the damping is measured
-_EDGE = 1e-9  # fraction of a gap at which forces have a kink, to stay away from it
+# Ratio of gaps between which the exponent of the damping is measured: nearer to one, the digits
+# that an FMU gives cancel (1e-15/0.01 is left); farther, a kink may lie between.
+_NEARER = 0.99
+# Fraction of a gap at which forces have a kink, to stay away from it: on the kink itself an FMU may
+# answer for either side. As `_SAME` in `adaptive`.
+_EDGE = 1e-9
 
 
 class _Film:

@@ -28,8 +28,11 @@ from .stage_root import Enough, Known, root
 
 __all__ = ["Body", "Doubled", "Point", "doubled", "given", "single"]
 
-_GAMMA = 1.0 - math.sqrt(0.5)
-_SOLVED = 1e-4  # error of the root of a stage over the tolerance
+_GAMMA = 1.0 - math.sqrt(0.5)  # of the L-stable SDIRK method of two stages and second order
+# Error of the root of a stage over the tolerance: a third of the difference of whole and halves is
+# the error estimate, in which errors of roots must not show. Smaller, and films are called more
+# often.
+_SOLVED = 1e-4
 
 
 class Body(NamedTuple):
@@ -136,6 +139,7 @@ def _restore(film: FilmSide, pull: Pull, marks: tuple[object, object]) -> None:
 
 def _together(whole: _Stage, halves: _Stage) -> Doubled:
     """Extrapolate: the error of the halves is a third of the difference."""
+    # In ln h, in which a film is smooth over decades; a sum of gaps might end below zero.
     gap = math.log(halves.gap / whole.gap) / 3.0
     total, speed = (halves.total - whole.total) / 3.0, (halves.speed - whole.speed) / 3.0
     return Doubled(

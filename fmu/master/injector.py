@@ -31,11 +31,17 @@ __all__ = ["CoSimulation", "DriveSide", "Fmu", "MassSide", "Steps", "cosimulate"
 # What a step may miss, over the tolerance: of the pull, by its bend and by the jump at its end that
 # an impact on the stop brings about, and of the gap that the drive went on with. Measured.
 _BEND, _JUMP, _DRIFT = 100.0, 600.0, 150.0
-_MOST = 0.05  # jump over the pull that is allowed at any tolerance
+# A jump over the pull is allowed at any tolerance up to this: beyond, the step is no approximation,
+# and errors no longer fall in proportion to the tolerance.
+_MOST = 0.05
 _CONTROL = StepSize(order=2, safety=0.85, grow=4.0)
-_STABLE = 0.8  # fraction of the longest stable step
-_FIRST = 1e-4  # fraction of the final time that is tried first
-_MOST_REJECTED = 60
+# Fraction of the longest stable step, 2 sqrt(m/k) of mass and stop: at the limit itself round-off
+# makes an impact grow.
+_STABLE = 0.8
+# Fraction of the final time that is tried first, and after a jump of the voltage: the current has
+# then hardly risen. Too long a first step is rejected and costs one; too short ones grow fourfold.
+_FIRST = 1e-4
+_MOST_REJECTED = 60  # in a row, as in `adaptive`
 
 
 class DriveSide(Restorable):

@@ -17,8 +17,12 @@ from typing import NamedTuple, Protocol
 
 __all__ = ["Known", "Stage", "root"]
 
-_REACH = 3.0  # factor by which a first guess may change the gap
-_POWERS = (0.0, 9.0)  # between which a film may stiffen
+# Factor by which a first guess may change the gap: the power of the film is only known from the
+# last step, and a film that is asked at a third of the gap may be 27 times as stiff.
+_REACH = 3.0
+# Between which a film may stiffen as h^-n: 3 of flats, 1 of spheres, 5 of films that narrow.
+# Outside, what was measured is noise of two gaps that are close.
+_POWERS = (0.0, 9.0)
 
 
 class Known(NamedTuple):

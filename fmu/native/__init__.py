@@ -7,7 +7,7 @@ tip          Writing the native FMU ``tip-contact``: film and site of a tip as t
 models       The models of the kernel: one description of each, which Python and C follow.
 record       Records: named members that Python writes and the C kernel reads, from one
              declaration.
-records      What the file of a native FMU holds: films as tables, rough faces as curves.
+records      Records in the file of a native FMU: films as tables, rough faces as curves.
 data         The file ``resources/film.bin`` of a native FMU: variables, tables and faces, for C.
 sources      The sources of the kernel of a native FMU: its files, and those made of the
              description.

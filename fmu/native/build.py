@@ -38,7 +38,7 @@ from .description import CATEGORIES, description_files
 from .film import moving, prepared_film
 from .models import native_model
 from .page import native_page
-from .ports import Model, check_free, check_start, native_ports
+from .ports import Model, check_free, native_ports
 from .records import Faces, FilmTables
 from .sources import kernel_sources, layout
 
@@ -115,7 +115,7 @@ def build_native(
     values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
     check_free(ports, model, given)
     values |= {name: start_value(ports, name, value) for name, value in given.items()}
-    check_start(ports, values)
+    native_model(model).slave.check_start(values)
     about = native_about(model, ports, values, f" ({scene.name})" if scene.name else "")
     content = NativeContent(film.tables, None, scene)
     return write_native(model, about, content, place, fmi, chosen_platforms(platforms), compiler)
@@ -124,7 +124,7 @@ def build_native(
 def native_about(
     name: str, ports: tuple[Port, ...], start: Mapping[str, Value], more: str = ""
 ) -> Description:
-    """What a native FMU says of itself, but for its GUID; `more` ends its summary."""
+    """Description of a native FMU, but for its GUID; `more` ends its summary."""
     model = native_model(name)
     return Description(
         identifier=model.identifier,
@@ -155,7 +155,7 @@ def target(out: str | os.PathLike[str], fmi: int) -> Path:
 
 
 class NativeContent(NamedTuple):
-    """What follows the variables in the file of a native FMU, and the scene it was made from."""
+    """Tables and faces of the file of a native FMU, and the scene they were made from."""
 
     tables: FilmTables | None = None
     faces: Faces | None = None

@@ -47,7 +47,7 @@ class Variable(Record):
 
 @frozen(kw_only=True)
 class Contents(Record):
-    """What the file of an FMU holds."""
+    """Contents of the file of an FMU: its model, its variables, tables and faces."""
 
     model: int = whole("which one", 0, len(MODELS) - 1)
     variables: tuple[Variable, ...] = several(

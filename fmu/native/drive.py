@@ -11,7 +11,6 @@ from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ..contents.end_stop import bake
 from ..framework.description import Description
 from ..framework.ports import Value, start_value
-from ..slaves.valve_drive import check_drive
 from .build import NativeContent, chosen_platforms, native_about, target, write_native
 from .faces import faces_of
 from .models import native_model
@@ -66,7 +65,7 @@ def build_native_drive(
     baked = bake("valve-drive", given).get("curve")
     faces = faces_of(LoadDisplacementCurve.from_data(baked)) if baked is not None else None
     about = _about("valve-drive", given)
-    check_drive(about.start)
+    native_model("valve-drive").slave.check_start(about.start)
     content = NativeContent(faces=faces)
     names = chosen_platforms(platforms)
     return write_native("valve-drive", about, content, place, fmi, names, compiler)

@@ -12,17 +12,13 @@ from ...accuracy import Accuracy
 from ...errors import ConvergenceError, DescriptionError, PlanError
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
-from ...separation.effects.base import FilmEnd, ForceLaw, SeparationForce
+from ...separation.effects.base import FilmEnd, SeparationForce
 from ...separation.effects.film_shape import FilmShape
+from ...separation.effects.force_law import ForceLaw, measured_rate
 from ...separation.effects.prepared import PreparedScene, with_fraction
-from ...separation.effects.viscous import (
-    TensionLimit,
-    ViscousForce,
-    ViscousLaw,
-    viscous_film,
-)
+from ...separation.effects.viscous import TensionLimit, ViscousForce, viscous_film
 from ...separation.plan import Plan, plan
-from .records import Film, FilmTables, Law, Scale, Table
+from .records import Film, FilmTables, Law, Rate, Scale, Table
 from .tables import tabulate
 
 __all__ = ["FINE", "PreparedFilm", "can_tear", "free_liquid", "moving", "prepared_film"]
@@ -30,8 +26,12 @@ __all__ = ["FINE", "PreparedFilm", "can_tear", "free_liquid", "moving", "prepare
 FINE = Accuracy(time_rtol=1e-11)
 """Accuracy of the laws behind the tables; their splines are 100 times finer than by default."""
 
-_FAR = 4.0  # final gaps up to which laws without an end are tabulated; their power goes on
-_FARTHER = 100.0  # the same of forces that lose no digits there
+# Final gaps up to which laws without an end are tabulated; beyond, their last power goes on. A
+# motion in a host rarely goes farther than four; forces that cost no digits there (static ones) are
+# cheap to 100. So are films on uneven faces, which are no power of the gap yet where a disc is one.
+_FAR = 4.0
+_FARTHER = 100.0
+_PROBES = 65  # gaps at which a law is asked how it depends on the speed
 _INF = math.inf
 
 
@@ -155,13 +155,20 @@ def _film(common: _Common, fraction: float) -> Film:
     film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
     forces = [e for e in made.scene.effects if isinstance(e, SeparationForce)]
     rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
-    shape = viscous_film(prepared) if film.has_viscous else None
+    is_liquid = any(kind.newtonian is not None for kind in film.laws)
+    shape = viscous_film(prepared) if is_liquid else None
     disc = shape if can_tear(made.scene) else None
+    laws = [law for effect in forces for law in _laws(common, effect, film.laws[type(effect)])]
+    if len(laws) > Film.most("laws"):
+        raise PlanError(
+            f"{len(laws)} tables of forces are more than the {Film.most('laws')} of a native FMU; "
+            "a force that acts at rest and depends on the speed counts twice"
+        )
     return Film(
         end=min(law.end for law in film.laws.values()),
         breaks=min(rules, default=_INF),
         full_gap=film.full_gap,
-        laws=tuple(_law(common, effect, film.laws[type(effect)]) for effect in forces),
+        laws=tuple(laws),
         shape=_shape(common, shape),
         rim_square=disc.rim * disc.rim if disc else 0.0,
         volume=disc.volume if disc else 0.0,
@@ -175,33 +182,73 @@ def can_tear(scene: SeparationScene) -> bool:
     return is_disc and scene.effect(ViscousForce) is not None
 
 
-def _law(common: _Common, effect: SeparationForce, law: ForceLaw) -> Law:
+def _laws(common: _Common, effect: SeparationForce, law: ForceLaw) -> list[Law]:
+    """Tables of a force: what it is at rest, and what it is per speed."""
     viscosity, surface_tension = common.free
-    speed = 1.0 if isinstance(law, ViscousLaw) else 0.0
     scale, unit = Scale.FIXED, 1.0
     proportional_to = effect.proportional_to(common.plan.scene)
     if proportional_to == "viscosity" and viscosity:
         scale, unit = Scale.VISCOSITY, viscosity
     elif proportional_to == "surface_tension" and surface_tension:
         scale, unit = Scale.SURFACE_TENSION, surface_tension
-    return Law(
-        scale=scale,
-        needs_film=effect.needs_film,
-        end=law.end,
-        release=law.release,
-        recontact=law.recontact,
-        kinks=tuple(map(float, law.kinks)),
-        table=_law_table(common, effect, law, lambda gap: law.force(gap, speed) / unit),
-    )
+    return [
+        Law(
+            scale=scale,
+            rate=rate,
+            needs_film=effect.needs_film,
+            end=law.end,
+            release=law.release,
+            recontact=law.recontact,
+            kinks=tuple(map(float, law.kinks)),
+            table=_law_table(common, effect, law, rate, lambda gap, of=part: of(gap) / unit),
+        )
+        for rate, part in _parts(common, effect, law).items()
+    ]
+
+
+def _parts(
+    common: _Common, effect: SeparationForce, law: ForceLaw
+) -> dict[Rate, Callable[[float], float]]:
+    """What a force is at rest [N], and per speed [N.s/m], as functions of the gap.
+
+    Raises
+    ------
+    PlanError
+        If it is not linear in the speed, so that no two functions of the gap say what it is.
+    """
+    rate: str = law.rate
+    if rate == "any":
+        high = min(law.end, law.known_to, _FAR * common.final_gap)
+        ratio = high / common.lowest
+        places = [common.lowest * ratio ** (i / _PROBES) for i in range(_PROBES)]
+        rate = measured_rate(law, places)
+    if rate == "any":
+        raise PlanError(
+            f"{type(effect).__name__} has no native form: its force is not linear in the speed, "
+            "and the tables of a native FMU are F(h, 0) and dF/dv(h); run the scene with "
+            "ck.simulate, or give a law that is linear over the speeds that matter"
+        )
+    found: dict[Rate, Callable[[float], float]] = {}
+    if rate != "proportional":
+        found[Rate.AT_REST] = lambda gap: law.force(gap, 0.0)
+    if rate != "none":
+        per_speed = Rate.PER_SPEED if effect.newtonian is None else Rate.LIQUID
+        found[per_speed] = lambda gap: law.viscous_force(gap, 1.0)
+    return found
 
 
 def _law_table(
-    common: _Common, effect: SeparationForce, law: ForceLaw, force: Callable[[float], float]
+    common: _Common,
+    effect: SeparationForce,
+    law: ForceLaw,
+    rate: Rate,
+    force: Callable[[float], float],
 ) -> Table:
     lowest, final, high = common.lowest, common.final_gap, min(law.end, law.known_to)
     stays = math.isfinite(high)
     if not stays:
-        high = _FAR * final if isinstance(law, ViscousLaw) else _FARTHER * final
+        is_power = rate is not Rate.AT_REST and common.plan.scene.interface.has_discs
+        high = (_FAR if is_power else _FARTHER) * final
     folds = {high} if high == law.end else set[float]()
     inside = {kink for kink in law.kinks if lowest < kink < high}
     if lowest < law.release < high:

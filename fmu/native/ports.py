@@ -19,12 +19,12 @@ from ...separation.effects.registry import AdhesiveContact, TensionLimit, Viscou
 from ...separation.effects.viscous import keeps_radius
 from ..framework.places import read
 from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
-from ..slaves.stiction_mass import PLACES, with_numbers
-from ..slaves.tension import TENSIONS, tension_limit, tension_values
+from ..slaves.stiction_mass import PLACES
+from ..slaves.tension import TENSIONS, tension_values
 from .film import can_tear, free_liquid
 from .models import native_model
 
-__all__ = ["Model", "check_free", "check_start", "native_ports", "start_of"]
+__all__ = ["Model", "check_free", "native_ports", "start_of"]
 
 Model = Literal["stiction-mass", "stiction-force"]
 """Models of the film of any scene."""
@@ -126,8 +126,8 @@ def start_of(
     if prepared.scene.imposed_force.mass is None:
         raise DescriptionError("m", None, "be given", unit="kg")
     named = _OF_MASS if model == "stiction-mass" else _OF_FILM
-    settled = with_numbers(prepared)
-    own = read(PLACES, settled) | tension_values(settled.effect(TensionLimit))
+    scene = prepared.scene
+    own = read(PLACES, scene, prepared.liquid) | tension_values(scene.effect(TensionLimit))
     values: dict[str, Value] = {name: own[of] for name, of in named.items()}
     viscosity, surface_tension = free_liquid(prepared)
     return values | {"eta": viscosity, "gamma": surface_tension}
@@ -150,23 +150,3 @@ def check_free(ports: tuple[Port, ...], model: Model, given: Mapping[str, Value 
                 f"be left out: in a native {model} of this scene it is no variable",
                 hint="change the scene, whose geometry, liquid and laws are in the tables",
             )
-
-
-def check_start(ports: tuple[Port, ...], values: Mapping[str, Value]) -> None:
-    """Refuse start values that contradict each other, as the kernel would.
-
-    Raises
-    ------
-    DescriptionError
-        Naming the two.
-    """
-    tension_limit({name: values.get(name, 0.0) for name in (*TENSIONS, "tau_lim")})
-    gap = values["h0"]
-    if values.get("h_rel", math.inf) <= gap:
-        raise DescriptionError("h_rel", values["h_rel"], f"exceed h0 = {gap:g} m", unit="m")
-    if values.get("h_min", 0.0) > gap:
-        raise DescriptionError("h_min", values["h_min"], f"not exceed h0 = {gap:g} m", unit="m")
-    if 0.0 < values["h_break"] <= gap or math.isinf(values["h_break"]):
-        raise DescriptionError(
-            "h_break", values["h_break"], f"be 0 or exceed h0 = {gap:g} m", unit="m"
-        )

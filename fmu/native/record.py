@@ -22,6 +22,7 @@ from ...errors import DescriptionError
 __all__ = [
     "Column",
     "Kind",
+    "MOST_NODES",
     "Maybe",
     "Member",
     "Part",
@@ -56,7 +57,7 @@ class Numbers:
 
     @property
     def left(self) -> int:
-        """How many are left."""
+        """Number of those not yet taken."""
         return len(self._numbers) - self._place
 
     def next(self) -> float:
@@ -429,6 +430,13 @@ class Record:
     def members(cls) -> tuple[Member, ...]:
         """Members, in the order of the file."""
         return tuple(Member(one.name, *one.metadata[_LAYOUT]) for one in fields(cls))
+
+    @classmethod
+    def most(cls, name: str) -> int:
+        """Largest number of entries of a member that has several."""
+        kinds = (one.kind for one in cls.members() if one.name == name)
+        (found,) = (kind.most for kind in kinds if isinstance(kind, Several))
+        return found
 
     @classmethod
     def columns(cls) -> tuple[Member, ...]:

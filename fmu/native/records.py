@@ -1,4 +1,4 @@
-"""What the file of a native FMU holds: films as tables, rough faces as curves."""
+"""Records in the file of a native FMU: films as tables, rough faces as curves."""
 
 from __future__ import annotations
 
@@ -30,6 +30,7 @@ __all__ = [
     "Law",
     "Piece",
     "PowerCurve",
+    "Rate",
     "Scale",
     "Table",
     "Unloading",
@@ -42,6 +43,14 @@ class Scale(IntEnum):
     FIXED = 0
     SURFACE_TENSION = 1
     VISCOSITY = 2
+
+
+class Rate(IntEnum):
+    """How a force depends on the speed; limits of the liquid bound the last one."""
+
+    AT_REST = 0
+    PER_SPEED = 1
+    LIQUID = 2
 
 
 @frozen(kw_only=True)
@@ -74,9 +83,13 @@ class Table(Record):
 
 @frozen(kw_only=True)
 class Law(Record):
-    """A force of a film or of its solids [N], over the parameter it is proportional to."""
+    """A force of a film or of its solids, over the parameter it is proportional to.
+
+    What it is at rest [N], or what it is per speed [N.s/m].
+    """
 
     scale: Scale = member_of(Scale, "that parameter")
+    rate: Rate = member_of(Rate, "what of it")
     needs_film: bool = flag("whether it ends where the film breaks")
     end: float = positive("gap beyond which there is none [m]")
     release: float = positive("gap at which solids pull off [m]")

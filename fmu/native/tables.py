@@ -24,14 +24,29 @@ if TYPE_CHECKING:
 
 __all__ = ["tabulate"]
 
+# Measured on six tables (films, menisci with and without a fold, an exponential): 3850 nodes, 3210
+# calls of the functions, 1e-12 of a value between the nodes.
+
+# Of the polynomial on a stretch. 8 asks for five times the calls and twice the nodes; with 24 a
+# noisy stretch swings between its points, 5e-11 off.
 _DEGREE = 14
-_NARROW = 0.05  # a stretch of x that is not divided further: what is left is noise of rounding
-_CLOSE = 1e-5  # x below which a distance to an end counts as none
-_FAIR = 1e-12  # error of a narrow stretch that is not divided in spite of it
-_ROUNDING = 3e-15  # of a stretch, in values that are sums of few terms
-_NOISE = 1e-7  # largest that is taken for noise
+# A stretch of x that is not divided further: what is left is noise of round-off. 0.01 to 0.3 end
+# with the same nodes within 4 %.
+_NARROW = 0.05
+# x below which a distance to an end counts as none: 1e-3 divides as if no finer stretches were
+# needed, and takes a tenth more nodes; 1e-7 the same.
+_CLOSE = 1e-5
+# Error of a narrow stretch that is not divided in spite of it: 1e-13 to 1e-11 take the same nodes.
+_FAIR = 1e-12
+# Round-off of a stretch, in values that are sums of few terms. Smaller, noise is taken for the
+# function and followed: 5500 nodes with 1e-15, 10 300 with 3e-16.
+_ROUNDING = 3e-15
+_NOISE = 1e-7  # largest that is taken for noise: a force that is rougher is refused
 _NOTHING = 1e-10  # of the largest value of a piece; less than this may be noise altogether
-_MOST_NODES = 60_000
+_MOST_NODES = 60_000  # of a piece, 2 MB: a rougher force is refused, with the cure
+# Power of the gap that is taken out: h^-5 (a film that narrows) to h^-7 (retarded van der Waals)
+# become slowly varying. With 2 the tables have 7 % more nodes, with 4 and 16 the same; a bound is
+# needed as noise at the lowest gap may have any slope.
 _STEEPEST = 8
 
 

@@ -16,7 +16,7 @@ import tempfile
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any
 from xml.etree.ElementTree import indent, tostring
 
 from ..._version import __version__
@@ -27,8 +27,6 @@ from ..contents.document import Page, external_dependencies, index_page, license
 from ..contents.packing import write_archive
 from ..contents.terminals import annotate_terminal, terminal_files
 from ..framework.ports import Value, start_value
-from ..native.ports import Model, check_start
-from ..slaves.valve_drive import check_drive
 from .guard import protect
 from .integrity import RECORD, content_hash, package_name
 from .vendor import Closure, find_closure
@@ -116,10 +114,7 @@ def build(
         data = importlib.import_module(f"..{BAKERS[name]}", __package__).bake(name, given)
     baked = {key: start_value(slave.ports, key, value) for key, value in given.items()}
     values = slave.start_values() | baked  # contradictions would only be found by the host
-    if name in get_args(Model):
-        check_start(slave.ports, values)
-    elif name == "valve-drive":
-        check_drive(values)
+    slave.check_start(values)
     target = Path(out)
     if target.is_dir():
         target /= f"{name}.fmu"

@@ -14,6 +14,8 @@ from collections.abc import Mapping
 from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple
 
+from attrs import evolve
+
 from ...accuracy import Accuracy
 from ...separation.cavity.events import born, is_torn_by
 from ...separation.cavity.stages import Spot, force_at
@@ -69,6 +71,12 @@ _GROUPS = {
     "limits": (*TENSIONS, "tau_lim"),
 }
 
+
+def _of_mass(name: str, depends_on: tuple[str, ...] = ()) -> Port:
+    """Output of ``stiction-mass``, which here follows other variables."""
+    return evolve(find_port(stiction_mass.PORTS, name), depends_on=depends_on)
+
+
 _PORTS = (
     input_port(
         "h",
@@ -81,19 +89,13 @@ _PORTS = (
         nominal=1e-6,
     ),
     input_port("v", "m/s", "opening speed there", nominal=0.1),
-    output_port("F", "N", "force of the film, positive resists opening", _ALL, nominal=10.0),
-    output_port("F_m", "N", "meniscus force, positive resists opening", _MENISCUS, nominal=10.0),
-    output_port(
-        "F_v",
-        "N",
-        "viscous force after the limits, positive resists opening",
-        _VISCOUS,
-        nominal=10.0,
-    ),
+    _of_mass("F", _ALL),
+    _of_mass("F_m", _MENISCUS),
+    _of_mass("F_v", _VISCOUS),
     output_port("c", "N.s/m", "damping dF/dv", _VISCOUS, minimum=0.0, nominal=1e8),
     output_port("k", "N/m", "stiffness dF/dh", _ALL, nominal=1e7),
-    output_port("J", "N.s", "viscous impulse since the start", nominal=1e-2),
-    output_port("J_m", "N.s", "meniscus impulse since the start", nominal=1e-2),
+    _of_mass("J"),
+    _of_mass("J_m"),
     output_port("F_mean", "N", "mean of F over the last step", nominal=10.0),
     output_port(
         "coupling_error",
@@ -117,24 +119,8 @@ _PORTS = (
         kind="boolean",
     ),
     output_port("n_doubt", "-", "number of steps in doubt so far", kind="integer", minimum=0),
-    output_port(
-        "state",
-        "-",
-        "state of the film",
-        _MENISCUS,
-        kind="enumeration",
-        enumeration=FilmStatus,
-        start=FilmStatus.FULL,
-    ),
-    output_port(
-        "limit",
-        "-",
-        "limit of the liquid that acts",
-        _VISCOUS,
-        kind="enumeration",
-        enumeration=LimitKind,
-        start=LimitKind.NONE,
-    ),
+    _of_mass("state", _MENISCUS),
+    _of_mass("limit", _VISCOUS),
     output_port(
         "h_above",
         "m",
@@ -153,19 +139,10 @@ _PORTS = (
         minimum=0.0,
         nominal=1e-6,
     ),
-    output_port(
-        "t_break",
-        "s",
-        "time of the latest rupture, -1 before",
-        start=-1.0,
-        nominal=1e-3,
-        at_events=True,
-    ),
-    output_port("n_break", "-", "number of ruptures so far", kind="integer", minimum=0),
-    output_port(
-        "r_cav", "m", "radius of the cavity", _VISCOUS, display_unit="mm", minimum=0.0, nominal=1e-3
-    ),
-    output_port("V_void", "m3", "void in the film", display_unit="mm3", minimum=0.0, nominal=1e-10),
+    _of_mass("t_break"),
+    _of_mass("n_break"),
+    _of_mass("r_cav", _VISCOUS),
+    _of_mass("V_void"),
     size_port("m_ref", "kg", "mass that the tool moves", 0.02, "g", exclusive=True),
     Port(
         "exchange",
@@ -207,6 +184,11 @@ class StictionForce(PortSlave):
 
     plan: Plan
     memory: _Memory
+
+    @classmethod
+    def check_start(cls, values: Mapping[str, Any]) -> None:
+        """See `PortSlave.check_start`."""
+        stiction_mass.check_gaps(values)
 
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""

@@ -1,8 +1,8 @@
 """The FMU ``stiction-mass``: a mass held by a liquid film; a force in, motion out.
 
 The film is far too stiff to be coupled to a mass in another tool: c/m reaches 1e12 1/s. So the
-mass is inside, and `contactkit.motion.advance` integrates both, with its own error control,
-however long the communication step is.
+mass is inside, and `contactkit.separation.motion.advance` integrates both, with its own error
+control, however long the communication step is.
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat
 from ...separation.effects.base import FilmStatus, LimitKind, SeparationEffect, effects_of
-from ...separation.effects.prepared import PreparedScene, prepare_scene
 from ...separation.effects.registry import (
     MeniscusForce,
     Rupture,
@@ -46,9 +45,9 @@ from ..framework.ports import (
     tolerance,
 )
 from ..framework.slave import PortSlave
-from .tension import TENSIONS, tension_limit, tension_values
+from .tension import TENSIONS, as_written, tension_limit, tension_values
 
-__all__ = ["MeniscusLaw", "StictionMass", "mass_values", "scene_of"]
+__all__ = ["MeniscusLaw", "StictionMass", "check_gaps", "mass_values", "scene_of"]
 
 
 class MeniscusLaw(IntEnum):
@@ -252,6 +251,25 @@ _FILM = SeparationScene(
 """Scene whose fields the parameters fill in."""
 
 
+def check_gaps(values: Mapping[str, Any]) -> None:
+    """Refuse gaps, or tensions, of a film that contradict each other; those there are.
+
+    Raises
+    ------
+    DescriptionError
+        Naming the two.
+    """
+    tension_limit({name: values.get(name, 0.0) for name in (*TENSIONS, "tau_lim")})
+    start = values["h0"]
+    if values.get("h_rel", math.inf) <= start:
+        raise DescriptionError("h_rel", values["h_rel"], f"exceed h0 = {start:g} m", unit="m")
+    if values.get("h_min", 0.0) > start:
+        raise DescriptionError("h_min", values["h_min"], f"not exceed h0 = {start:g} m", unit="m")
+    if 0.0 < values["h_break"] <= start or math.isinf(values["h_break"]):
+        expected = f"be 0 or exceed h0 = {start:g} m"
+        raise DescriptionError("h_break", values["h_break"], expected, unit="m")
+
+
 def scene_of(values: Mapping[str, Any]) -> SeparationScene:
     """Scene that the parameters of the FMU describe.
 
@@ -260,14 +278,7 @@ def scene_of(values: Mapping[str, Any]) -> SeparationScene:
     DescriptionError
         If two parameters contradict each other.
     """
-    if values["h_rel"] <= values["h0"]:
-        raise DescriptionError(
-            "h_rel", values["h_rel"], f"exceed h0 = {values['h0']!r} m", unit="m"
-        )
-    if values["h_min"] > values["h0"]:
-        raise DescriptionError(
-            "h_min", values["h_min"], f"not exceed h0 = {values['h0']!r} m", unit="m"
-        )
+    check_gaps(values)
     limit = tension_limit(values)
     law = values["meniscus_law"] if values["gamma"] > 0.0 else MeniscusLaw.NONE
     made = write(PLACES, _FILM, {**values, "meniscus_law": MeniscusLaw(law)})
@@ -298,8 +309,9 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     against = [reason for reason, holds in needs.items() if not holds]
     if against:
         raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {_CURE}")
-    settled = _same_form(with_numbers(prepare_scene(scene)))
-    values = read(PLACES, settled) | tension_values(settled.effect(TensionLimit))
+    settled = _same_form(scene)
+    liquid = scene.meniscus.liquid.at(scene.temperature)
+    values = read(PLACES, settled, liquid) | tension_values(scene.effect(TensionLimit))
     numbers = {port.name: port.read(values.get(port.name, port.start)) for port in PORTS}
     lost = differences(settled, scene_of(numbers), _NOT_HELD)
     if lost:
@@ -311,7 +323,7 @@ _CURE = "change the scene, or add --native, which takes any scene with a mass"
 _NOT_HELD = (
     "name",
     "temperature",  # the liquid is that of it
-    "interface.meniscus.liquid.name",
+    "interface.meniscus.liquid",
     "loading.force",  # the pull is an input
     "loading.rise_time",
     "loading.time_limit",
@@ -328,6 +340,8 @@ def _same_form(scene: SeparationScene) -> SeparationScene:
     for effect in effects_of(scene):
         if isinstance(effect, MeniscusForce) and effect.profile != "as-published":
             effects.append(evolve(effect, pulled="lower", radius="arc"))
+        elif isinstance(effect, TensionLimit):
+            effects += filter(None, (as_written(effect),))
         elif not (is_exact and effect == Rupture()):  # the exact bridge breaks by itself
             effects.append(effect)
     interface = evolve(
@@ -335,25 +349,6 @@ def _same_form(scene: SeparationScene) -> SeparationScene:
         lower=evolve(interface.lower, surface=rim),
         upper=evolve(interface.upper, surface=rim),
     )
-    return evolve(scene, interface=interface, effects=tuple(effects))
-
-
-def with_numbers(prepared: PreparedScene[SeparationScene]) -> SeparationScene:
-    """Scene with a liquid of constant properties, and the tension limit as a pressure [Pa]."""
-    scene, state = prepared.scene, prepared.liquid
-    meniscus = scene.meniscus
-    liquid = Liquid(
-        name=meniscus.liquid.name,
-        viscosity=state.given("viscosity"),
-        surface_tension=state.given("surface_tension"),
-    )
-    effects = [e for e in scene.effects if not isinstance(e, TensionLimit)]
-    limit = scene.effect(TensionLimit)
-    settled = tension_limit(tension_values(limit) | {"tau_lim": 0.0})
-    if limit is not None and settled is not None:
-        is_cut = limit.cavity != "mass-conserving"
-        effects.append(evolve(settled, cavity=limit.cavity) if is_cut else settled)
-    interface = evolve(scene.interface, meniscus=evolve(meniscus, liquid=liquid))
     return evolve(scene, interface=interface, effects=tuple(effects))
 
 
@@ -372,6 +367,11 @@ class StictionMass(PortSlave):
     plan: Plan
     state: MotionState
     _pull = Pull(0.0)  # the last one, which a pull that stays takes again
+
+    @classmethod
+    def check_start(cls, values: Mapping[str, Any]) -> None:
+        """See `PortSlave.check_start`."""
+        check_gaps(values)
 
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""

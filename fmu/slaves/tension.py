@@ -10,10 +10,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from attrs import evolve
+
 from ...errors import DescriptionError
 from ...separation.effects.viscous import TensionLimit
 
-__all__ = ["TENSIONS", "tension_limit", "tension_values"]
+__all__ = ["TENSIONS", "as_written", "tension_limit", "tension_values"]
 
 TENSIONS = ("dp_cav", "dp_tear", "dp_hold")
 """Parameters that stand for the tension limit of a scene."""
@@ -54,6 +56,14 @@ def tension_limit(values: Mapping[str, Any]) -> TensionLimit | None:
     return TensionLimit(
         strength=tear, cavity_pressure=_AMBIENT - (hold or tear), ambient_pressure=_AMBIENT
     )
+
+
+def as_written(limit: TensionLimit) -> TensionLimit | None:
+    """Tension limit as the parameters of an FMU write it, but for its cavity."""
+    settled = tension_limit(tension_values(limit) | {"tau_lim": 0.0})
+    if settled is None or limit.cavity == "mass-conserving":
+        return settled
+    return evolve(settled, cavity=limit.cavity)
 
 
 def tension_values(limit: TensionLimit | None) -> dict[str, float]:

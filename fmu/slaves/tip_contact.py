@@ -45,7 +45,6 @@ from ...scene.loading import ImposedForce
 from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat, Sphere
-from ...separation.effects.prepared import prepare_scene
 from ...separation.effects.registry import (
     MeniscusForce,
     VanDerWaalsForce,
@@ -65,7 +64,6 @@ from ..framework.ports import (
     tolerance,
 )
 from ..framework.slave import PortSlave
-from .stiction_mass import with_numbers
 
 __all__ = ["TipContact", "TipLaw", "TipStatus", "check_tip"]
 
@@ -328,8 +326,10 @@ def tip_values(tip: SeparationScene) -> dict[str, Any]:
     }
     if against := [reason for reason, holds in needs.items() if not holds]:
         raise PlanError(f"the FMU tip-contact needs {'; '.join(against)}")
-    settled = _same_form(with_numbers(prepare_scene(tip)))
-    values = read(PLACES, settled)
+    settled = _same_form(tip)
+    values = read(PLACES, settled, tip.meniscus.liquid.at(tip.temperature))
+    if tip.effect(ViscousForce) is None:
+        values["eta"] = 0.0
     if tip.effect(MeniscusForce) is None:
         del values["profile"]
     numbers = {port.name: port.read(values.get(port.name, port.start)) for port in PORTS}
@@ -341,7 +341,7 @@ def tip_values(tip: SeparationScene) -> dict[str, Any]:
 _NOT_HELD = (
     "name",
     "temperature",  # the liquid is that of it
-    "interface.meniscus.liquid.name",
+    "interface.meniscus.liquid",
     "loading.force",  # what pulls is the root
     "loading.rise_time",
     "loading.time_limit",
@@ -350,10 +350,8 @@ _NOT_HELD = (
 
 
 def _same_form(tip: SeparationScene) -> SeparationScene:
-    """Scene written as the parameters write it: no viscosity and no liquid that nothing reads."""
+    """Scene written as the parameters write it: no liquid that nothing reads."""
     meniscus = tip.meniscus
-    if tip.effect(ViscousForce) is None:
-        meniscus = evolve(meniscus, liquid=evolve(meniscus.liquid, viscosity=None))
     if tip.effect(MeniscusForce) is None and tip.effect(ViscousForce) is None:
         meniscus = evolve(meniscus, volume=None, pressure=None, relative_humidity=None)
     return evolve(tip, interface=evolve(tip.interface, meniscus=meniscus))

@@ -26,10 +26,12 @@ from ..framework.places import Place, read, write
 from ..framework.ports import Port, Value, grouped, input_port, output_port, size_port
 from ..framework.slave import PortSlave
 
-__all__ = ["ValveDrive", "check_drive", "drive_values", "valve_of"]
+__all__ = ["ValveDrive", "drive_values", "valve_of"]
 
 _SPRING = ("k_spring", "F_preload")
 _STOP = ("h_stop", "k_stop", "d_stop")
+# Of the voltage in one step of the host: the coil is solved from one to the next in some 10 us, and
+# a host waits a second.
 _MOST_SWITCHINGS = 100_000
 
 
@@ -170,9 +172,25 @@ class ValveDrive(PortSlave):
     }
     ports: ClassVar[tuple[Port, ...]] = PORTS
 
+    @classmethod
+    def check_start(cls, values: Mapping[str, Value]) -> None:
+        """See `PortSlave.check_start`."""
+        for name, bound in (("t_boost", "t_on"), ("t_on", "T_period")):
+            if values[name] > values[bound]:
+                expected = f"not exceed {bound} = {values[bound]:g} s"
+                raise DescriptionError(name, values[name], expected, unit="s")
+        if values["h_stop"] >= values["g_air"]:
+            raise DescriptionError(
+                "h_stop",
+                values["h_stop"],
+                f"be less than g_air = {values['g_air']:g} m",
+                unit="m",
+                hint="else the armature meets the poles before the spool meets the stop",
+            )
+
     def prepare(self) -> None:
         """See `PortSlave.prepare`."""
-        check_drive(self.values)
+        self.check_start(self.values)
         self.valve = valve_of(self.values)
         faces = self.data.get("curve")
         self.faces = LoadDisplacementCurve.from_data(faces) if faces is not None else None
@@ -244,28 +262,6 @@ def _check_switchings(profile: law.DriveProfile, step: float) -> None:
         raise InfeasibleError(
             f"a step of {step:g} s holds {count:.3g} switchings of the voltage, with T_period = "
             f"{profile.period:g} s, and at most {_MOST_SWITCHINGS} are followed in one step"
-        )
-
-
-def check_drive(values: Mapping[str, Value]) -> None:
-    """Refuse start values of a drive that contradict each other.
-
-    Raises
-    ------
-    DescriptionError
-        Naming the two.
-    """
-    for name, bound in (("t_boost", "t_on"), ("t_on", "T_period")):
-        if values[name] > values[bound]:
-            expected = f"not exceed {bound} = {values[bound]:g} s"
-            raise DescriptionError(name, values[name], expected, unit="s")
-    if values["h_stop"] >= values["g_air"]:
-        raise DescriptionError(
-            "h_stop",
-            values["h_stop"],
-            f"be less than g_air = {values['g_air']:g} m",
-            unit="m",
-            hint="else the armature meets the poles before the spool meets the stop",
         )
 
 

@@ -29,8 +29,10 @@ __all__ = [
     "sticking_time",
 ]
 
-_CLOSED = 0.5  # fraction of the stroke that is left
-_THIN = 1e-15  # [Pa.s], of a film that is none
+_CLOSED = 0.5  # fraction of the stroke that is left: in full motion, where the time is well defined
+# Viscosity of a film that is none [Pa.s]: 1e-12 of an oil's. Its release delay is below all
+# round-off, and no other code than that of a film is needed.
+_THIN = 1e-15
 
 
 def delay(

@@ -9,11 +9,11 @@ DOP853 (explicit, order 8) where none does. Events are voltages that switch, the
 left, kinks of the film laws, a film that tears, turns of the edge of its cavity, a film that is
 full again, rupture, re-wetting, release, the end stop met and left, the end of the current. The
 laws of film and valve are those of the package; unknowns, time stepping and search for events are
-not, so that an agreement with `contactkit.motion`, or with its FMU coupled to that of the drive,
-says something about both.
+not, so that an agreement with `contactkit.separation.motion`, or with its FMU coupled to that of
+the drive, says something about both.
 
 Validity: as the laws themselves; the numerical error is about `rtol`. Landing on the end cap is
-inelastic, as in `contactkit.motion`: a bounce is left out.
+inelastic, as in `contactkit.separation.motion`: a bounce is left out.
 """
 
 from __future__ import annotations
@@ -48,6 +48,7 @@ __all__ = ["Drive", "Event", "MonolithicResult", "simulate"]
 
 _Floats = NDArray[np.float64]
 
+# With these sizes all unknowns are of order one, and one absolute tolerance fits them.
 FLUX = 1e-3
 """Size of the unknown flux linkage [Wb]; 1 m/s, 1 N.s and 1 J are those of the others."""
 
@@ -300,7 +301,10 @@ def _peak(plan: Plan, piece: Piece) -> tuple[float, float]:
     return max(at_step, (-float(sharp.fun), float(sharp.x)))
 
 
-_SAME = 1e-12  # two gaps closer than this, relatively, are one
+# Two gaps closer than this, relatively, are one: a mark that a piece ended at is behind it in spite
+# of round-off. Wider, two marks at nearly one gap would be merged.
+_SAME = 1e-12
+# Pieces of the motion between events: a spool that bounces ever faster would go on for ever.
 _MOST_PIECES = 100_000
 
 _Rates = Callable[[float, _Floats], list[float]]
@@ -464,6 +468,7 @@ class _Run:
                 viscous = film.viscous_force(gap, speed)[0]
             else:
                 viscous, growth = torn_pieces.torn_film(tearing, cavity, gap, speed, scale * void)
+                viscous += film.unbounded(gap, speed).viscous
             net -= film.static_force(gap) + viscous
             return [speed / gap, net / mass, rise, viscous, viscous * speed, growth / scale]
 

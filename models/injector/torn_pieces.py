@@ -36,6 +36,8 @@ __all__ = [
     "void_scale",
 ]
 
+# The edge runs into the centre like a logarithm as the void vanishes, which no step size follows to
+# the end. Larger, the film would be full too early.
 HEALED = 1e-10
 """Void over the largest of a cavity, at which the film counts as full."""
 

@@ -4,7 +4,7 @@ Conventions: the gap h lies between the end of the spool and the end cap and gro
 opens. The magnet pulls the spool *away* from the end cap, so that each of its two air gaps
 shrinks by what h grows: it is ``air_gap - h``. A spring pushes the spool back, an opposite stop
 ends the stroke. `pull` is what is left for the film, positive where it opens; the film and the
-end cap itself belong to `contactkit.motion`.
+end cap itself belong to `contactkit.separation.motion`.
 
 Left out: what `coil` leaves out, the play and the friction of the spool in its bore, and the forces
 of the oil that flows through the valve. Plain floats only: this also runs inside an FMU.

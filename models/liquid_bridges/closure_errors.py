@@ -29,6 +29,8 @@ __all__ = [
     "sphere_forces",
 ]
 
+# Gaps over the stability limit, in which errors are given: they grow towards it, where the slope of
+# the exact force is infinite; between flats nothing is left to show below 0.02.
 FLAT_BANDS = ((0.02, 0.1), (0.1, 0.3), (0.3, 0.6), (0.6, 0.9), (0.9, 0.99))
 SPHERE_BANDS = ((0.0, 0.02), (0.05, 0.2), (0.3, 0.6), (0.6, 0.9), (0.9, 0.99))
 _POINTS = 33  # to a band

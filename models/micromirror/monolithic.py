@@ -46,9 +46,10 @@ from .tip_impact import Contact, rebound_work, rest_depth
 
 __all__ = ["SIDES", "Event", "MonolithicMotion", "simulate_monolithic"]
 
-SIDES = (1.0, -1.0)
+SIDES = (1.0, -1.0)  # of the hinge, by the sign of the tilt that lands there
 STRIKES = 1.5
 """State of a tip beside `LANDED`, `HELD` and `FREE`: in an impact on its site."""
+# Pieces of the motion between events: a tip that bounces ever faster would go on for ever.
 _MOST_PIECES = 10_000
 _Floats = NDArray[np.float64]
 

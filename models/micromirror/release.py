@@ -25,10 +25,14 @@ __all__ = [
     "voltage_needed",
 ]
 
+# Each trial solves a motion. Release need not be monotone in the voltage: the first one that works
+# is looked for upwards, so that a window narrower than the coarse step may be missed.
 _COARSE = 2.0  # [V] between the pulses tried first
 _FINE = 0.05  # [V]
-_WETTEST, _STEP = 0.98, 0.005  # [-] relative humidities
-_AWAY = 0.5  # [-] over the landing tilt, below which a mirror has left
+# Relative humidities [-]. Above 0.98 the Kelvin radius (26 nm) is that of the tip: other films
+# than those of this model. The step is below the error of a hygrometer, 1 %.
+_WETTEST, _STEP = 0.98, 0.005
+_AWAY = 0.5  # [-] over the landing tilt, below which a mirror has left: beyond any bend of the tip
 
 
 class Release(NamedTuple):

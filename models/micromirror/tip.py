@@ -167,7 +167,9 @@ def pressed(stop: TipStop, state: TipState, depth: float, largest: float) -> Tip
     return state._replace(depth=depth, residual=residual, largest=largest, peak=peak)
 
 
-_PIECE = 3  # cost of a piece of the motion beside its steps, in internal steps
+# Cost of a piece of the motion beside its steps, in internal steps, for Accuracy.max_steps: a piece
+# without any, as a landing, is not free, or a tip that bounces at rest would never be given up.
+_PIECE = 3
 
 
 def advance_tip(

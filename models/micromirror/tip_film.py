@@ -13,7 +13,7 @@ Left out: films adsorbed on the surfaces, and that Kelvin's law is used below 1 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -25,6 +25,7 @@ from ...errors import InfeasibleError
 from ...scene.scenes import SeparationScene
 from ...separation.effects.registry import MeniscusForce, ViscousForce
 from ...separation.plan import Plan
+from ...validity import ValidityNumber
 from .tip import free_gap, tip_plan
 
 if TYPE_CHECKING:
@@ -36,12 +37,16 @@ if TYPE_CHECKING:
 __all__ = [
     "Adhesion",
     "adhesion",
+    "condensate_validity",
     "condensed_volume",
     "pressure_law",
     "separation_energy",
     "tip_law",
     "tip_scene",
 ]
+
+
+_FEW_MOLECULES = 1e-9  # [m]; a molecule of water is 0.3 nm across
 
 
 class Adhesion(NamedTuple):
@@ -63,6 +68,30 @@ class Adhesion(NamedTuple):
     def force(self) -> float:
         """Sum of the forces [N]."""
         return self.meniscus_force + self.solid_force
+
+
+def condensate_validity(found: Iterable[Adhesion]) -> tuple[ValidityNumber, ...]:
+    """Range of Kelvin's equation at the humidities at which liquid condenses; none if all is dry.
+
+    Examples
+    --------
+    >>> dry = Adhesion(0.1, 0.0, 0.0, 0.0, 1e-8, math.nan, 1e-17)
+    >>> wet = Adhesion(0.4, 0.58e-9, 1e-24, 1e-8, 1e-8, 2e-9, 2e-17)
+    >>> [one.is_valid for one in condensate_validity([dry, wet])], condensate_validity([dry])
+    ([False], ())
+    """
+    radii = [one.kelvin_radius for one in found if one.volume > 0.0]
+    if not radii:
+        return ()
+    return (
+        ValidityNumber(
+            name="Kelvin radius [m]",
+            value=min(radii),
+            low=_FEW_MOLECULES,
+            detail="below 1 nm, a few molecules, the tension of the bulk is some 20 % off",
+            source="Fisher and Israelachvili 1981: Kelvin's equation holds down to radii of 4 nm",
+        ),
+    )
 
 
 def _kelvin(scene: SeparationScene, humidity: float) -> tuple[float, float]:

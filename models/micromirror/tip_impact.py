@@ -38,7 +38,9 @@ __all__ = [
 ]
 
 _CONTROL = StepSize(order=5, grow=5.0, unsolved=0.1)
-_OUT_PIECES = 30  # halvings of an unloading curve, in which its work is summed
+# Halvings of an unloading curve towards its end, in which its work is summed by Gauss' rule: the
+# force ends there like a power 3/2 of the depth, and 2^-30 of the curve holds 1e-22 of the work.
+_OUT_PIECES = 30
 
 # Dormand and Prince, order 5 with an error of order 4.
 _NODES = (0.2, 0.3, 0.8, 8.0 / 9.0, 1.0)

@@ -4,7 +4,7 @@
    native_host LIBRARY RESOURCES GUID misuse                 ends with 0 if it lives
    native_host LIBRARY RESOURCES GUID time COUNT             nanoseconds of set, step, get
 
-   Value references are those of the variables in the order of native/model.h, from 1. */
+   Value references are those of the variables in the order of kernel/model.h, from 1. */
 
 #define _POSIX_C_SOURCE 200809L
 #include <dlfcn.h>

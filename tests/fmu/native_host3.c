@@ -3,7 +3,7 @@
    native_host3 LIBRARY FOLDER TOKEN events FORCE STEP END   prints t h v F state n_break of each row
    native_host3 LIBRARY FOLDER TOKEN misuse                  ends with 0 if it lives
 
-   Value references are those of stiction-mass in the order of native/model.h, from 1. */
+   Value references are those of stiction-mass in the order of kernel/model.h, from 1. */
 
 #define _POSIX_C_SOURCE 200809L
 #include <dlfcn.h>

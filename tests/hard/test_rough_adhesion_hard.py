@@ -202,7 +202,7 @@ def test_a_study_of_approaches_finds_the_state_of_an_approach_at_each():
         warnings.simplefilter("ignore", ck.ValidityWarning)
         found = ck.study(scene(law), {"loading.approach": levels}).column("load")
         alone = [ck.solve(ck.plan(scene(law, approach=one))).load for one in levels]
-        path = ck.pull_off_curve(ck.plan(scene(law)), levels[::-1], refinements=0)
+        path = ck.pull_off_curve(ck.plan(scene(law)), levels[::-1], n_refinements=0)
     assert list(found) == pytest.approx(alone, rel=1e-6)
     assert abs(path.separating.load[-1] - alone[-1]) > 0.01 * abs(path.separating.load[-1])
 
@@ -356,7 +356,7 @@ def test_a_tension_that_leaves_round_off_of_the_pressure_is_refused():
 def test_a_curve_that_ends_before_the_pull_off_warns(first, words):
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", ck.ValidityWarning)
-        curve = ck.pull_off_curve(ck.plan(scene(WEAK)), [first, 2e-9], refinements=2)
+        curve = ck.pull_off_curve(ck.plan(scene(WEAK)), [first, 2e-9], n_refinements=2)
     said = [one for one in heard if "tension at the end of the separation" in str(one.message)]
     assert bool(said) == bool(words)
     assert all(words in str(one.message) for one in said)

@@ -431,6 +431,66 @@ def test_a_place_on_a_machine_would_be_seen():
     assert [text for text in (*seen, *innocent) if MACHINE.search(text)] == seen
 
 
+# Constants ----------------------------------------------------------------------------------
+
+# How many constants of a room have no reason yet: none may be added, and a room that is clean goes.
+WITHOUT_A_REASON = {
+    "contactkit/contact": 21,
+    "contactkit/lubrication": 3,
+    "contactkit/separation": 4,
+}
+
+
+def is_numeric(value):
+    """Whether an expression is made of numbers only: a number, arithmetic of them, a tuple."""
+    if isinstance(value, ast.Constant):
+        return isinstance(value.value, int | float) and not isinstance(value.value, bool)
+    if isinstance(value, ast.UnaryOp):
+        return is_numeric(value.operand)
+    if isinstance(value, ast.BinOp):
+        return is_numeric(value.left) and is_numeric(value.right)
+    return isinstance(value, ast.Tuple) and bool(value.elts) and all(map(is_numeric, value.elts))
+
+
+def without_a_reason(source):
+    """Numeric constants of a module without a comment on their line, above their block, or a text.
+
+    A block is a run of lines without an empty one; a text is a string right below the constant.
+    """
+    lines, body = source.splitlines(), ast.parse(source).body
+    found = []
+    for node, following in zip(body, [*body[1:], None], strict=True):
+        value = getattr(node, "value", None)
+        if not isinstance(node, ast.Assign | ast.AnnAssign) or not is_numeric(value):
+            continue
+        first = node.lineno - 1
+        while first > 0 and lines[first - 1].strip() and not lines[first - 1].startswith("#"):
+            first -= 1
+        is_said = first > 0 and lines[first - 1].startswith("#")
+        is_said |= any("#" in line for line in lines[node.lineno - 1 : node.end_lineno])
+        below = getattr(following, "value", None)
+        is_said |= isinstance(below, ast.Constant) and isinstance(below.value, str)
+        if not is_said:
+            found.append(ast.unparse(node).partition(" =")[0])
+    return found
+
+
+def test_every_constant_says_why():
+    """A comment says what it balances and what set it; a constant that balances nothing goes."""
+    rooms = Counter()
+    for path in python_files():
+        if not label(path).startswith("examples/"):
+            room = "/".join(label(path).split("/")[:2])
+            rooms[room] += len(without_a_reason(path.read_text(encoding="utf-8")))
+    more = {room: n for room, n in rooms.items() if n > WITHOUT_A_REASON.get(room, 0)}
+    assert more == {}, "constants without a comment above them or on their line"
+
+
+def test_a_constant_without_a_reason_would_be_seen():
+    source = "A = 1.0  # of B\n\nB = 2.0\n# both\nC = 3.0\nD = -(2**3), 4\n\nE = 5\n'text'\n\nF = 6"
+    assert without_a_reason(source) == ["B", "F"]
+
+
 # Doctests -----------------------------------------------------------------------------------
 
 

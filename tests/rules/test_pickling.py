@@ -100,7 +100,7 @@ def adhesion():
 def stick_slip():
     friction = {"static_coefficient": 0.3, "kinetic_coefficient": 0.2}
     block = ck.SpringSlider(load=1.0, **friction, stiffness=1e3, speed=1e-3, mass=1e-2)
-    return ck.stick_slip(block, slips=2)
+    return ck.stick_slip(block, n_slips=2)
 
 
 def pull_off():

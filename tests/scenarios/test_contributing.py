@@ -204,7 +204,8 @@ def test_a_native_fmu_tabulates_it(plates):
     (film,) = prepared_film(alone).tables.films
     (law,) = film.laws
     (piece,) = law.table.pieces
-    assert (law.scale, law.needs_film, law.kinks, law.table.stays) == (0, False, (), False)
+    assert (law.scale, law.rate, law.needs_film, law.kinks) == (0, 0, False, ())
+    assert not law.table.stays
     assert (law.end, law.release, law.recontact) == (math.inf, math.inf, 0.0)
     assert (piece.power, len(piece.x)) == (2, 2)
     assert piece.y == pytest.approx([attraction(1.0)] * 2, rel=1e-12)

@@ -58,7 +58,7 @@ def rough_scene():
 
 @pytest.fixture(scope="module")
 def rough(rough_scene):
-    return ck.load_displacement(rough_scene, points=24, unloadings=8, accuracy=GRID)
+    return ck.load_displacement(rough_scene, points=24, n_unloadings=8, accuracy=GRID)
 
 
 # The kernel -----------------------------------------------------------------------------------
@@ -170,7 +170,9 @@ def test_between_the_points_it_is_what_a_fresh_solve_gives(rough, rough_scene):
     The first way lies where the contact is a handful of pixels.
     """
     between = [math.sqrt(a * b) for a, b in zip(rough.approach, rough.approach[1:], strict=False)]
-    fresh = ck.load_displacement(rough_scene, approaches=between[-8:], unloadings=3, accuracy=GRID)
+    fresh = ck.load_displacement(
+        rough_scene, approaches=between[-8:], n_unloadings=3, accuracy=GRID
+    )
     for approach, force in zip(fresh.approach, fresh.force, strict=True):
         assert rough.at(approach).force == pytest.approx(force, rel=min(rough.error, 0.03))
     for one, fraction in zip(fresh.unloading, (0.06, 0.01, 0.01), strict=True):
@@ -272,7 +274,7 @@ def test_near_the_hardness_nothing_elastic_is_left_but_the_tables_stand():
     limit = ck.HardnessLimit(rule="material")
     heavy = scene(ROUGH, ck.Pressing(pressure=0.98 * HARDNESS), limit)
     curve = ck.load_displacement(
-        heavy, points=8, decades=1.0, unloadings=2, accuracy=ck.Accuracy(grid=32)
+        heavy, points=8, decades=1.0, n_unloadings=2, accuracy=ck.Accuracy(grid=32)
     )
     assert curve.elastic_limit == 0.0
     assert curve.plastic_area[-1] > 0.9 * curve.nominal_area
@@ -306,7 +308,7 @@ def test_a_hardness_that_grows_with_the_load_and_forgets_its_residual_indentatio
         ck.InfeasibleError, match=r"residual indentations of smaller loads are lost.*material"
     ):
         ck.load_displacement(
-            made, points=12, unloadings=2, accuracy=ck.Accuracy(grid=32, rtol=1e-6)
+            made, points=12, n_unloadings=2, accuracy=ck.Accuracy(grid=32, rtol=1e-6)
         )
 
 
@@ -314,7 +316,7 @@ def test_a_hardness_that_grows_with_the_load_and_forgets_its_residual_indentatio
     ("choice", "said"),
     [
         ({"points": 3}, "points"),
-        ({"unloadings": 0}, "unloadings"),
+        ({"n_unloadings": 0}, "n_unloadings"),
         ({"decades": 0.0}, "decades"),
         ({"loads": [1.0]}, "ascending"),
         ({"loads": [1.0, 1.0]}, "ascending"),

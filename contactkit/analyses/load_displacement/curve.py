@@ -16,16 +16,16 @@ from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
 from functools import partial
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from attrs import evolve, field, fields, frozen
 
 from ...errors import DescriptionError, InfeasibleError
-from ...export.contents import Contents
-from ...numerics.monotone_cubic import Curve, monotone_curve, power_curve
+from ...numerics.monotone_cubic import Curve as Spline
+from ...numerics.monotone_cubic import monotone_curve, power_curve
 from ...numerics.quadrature import gauss_legendre
 from ...numerics.roots import bracketed_root
-from ...scene.tabular import Tabular, curve_contents
+from ...scene.curve import Curve
 from ...units import si
 
 __all__ = [
@@ -99,8 +99,8 @@ class NormalizedUnloading(NamedTuple):
     """
 
     max_approach: float
-    force: Curve
-    area: Curve
+    force: Spline
+    area: Spline
     mean: float
     nodes: tuple[float, ...]
 
@@ -146,7 +146,7 @@ def normalized(one: Unloading) -> NormalizedUnloading:
 
 
 def reversible(
-    loading: Curve, area: Curve, limit: float, work: float, nodes: Sequence[float]
+    loading: Spline, area: Spline, limit: float, work: float, nodes: Sequence[float]
 ) -> NormalizedUnloading:
     """Unloading curve from the elastic limit: the loading curve itself, of given work up to it."""
     force_there, area_there = loading(limit)[0], area(limit)[0]
@@ -163,7 +163,7 @@ def reversible(
     return NormalizedUnloading(limit, unloading, touching, work / (force_there * limit), fractions)
 
 
-def area_below(curve: Curve, a: float, b: float) -> float:
+def area_below(curve: Spline, a: float, b: float) -> float:
     """Integral of a curve between two positive points, in the logarithm."""
     if b <= a:
         return 0.0
@@ -174,7 +174,7 @@ def area_below(curve: Curve, a: float, b: float) -> float:
     return width * total
 
 
-def area_above(loading: Curve, back: UnloadingCurve, nodes: Sequence[float]) -> float:
+def area_above(loading: Spline, back: UnloadingCurve, nodes: Sequence[float]) -> float:
     """Area of an unloading curve that lies above the loading curve, whose nodes are given.
 
     Both are smooth between the nodes; a piece is skipped if it is not above at either end and does
@@ -202,7 +202,7 @@ def area_above(loading: Curve, back: UnloadingCurve, nodes: Sequence[float]) -> 
     )
 
 
-def _positive_area(over: Curve, a: float, b: float) -> float:
+def _positive_area(over: Spline, a: float, b: float) -> float:
     """Integral of the positive part of a smooth function of known slope."""
     points, weights = gauss_legendre(_COARSE)
 
@@ -225,7 +225,7 @@ _SAME = 1e-12  # approaches closer than this, relatively, are one
 
 
 @frozen(kw_only=True)
-class LoadDisplacementCurve(Tabular):
+class LoadDisplacementCurve(Curve):
     """Force, stiffness and areas of a contact over its approach, with the memory of plasticity.
 
     Tables are monotone cubics, for force and area in logarithms. They start as a power law of an
@@ -248,6 +248,8 @@ class LoadDisplacementCurve(Tabular):
         other point and therefore conservative.
     """
 
+    axis: ClassVar[str] = "approach"
+
     approach: tuple[float, ...] = field(converter=as_floats, metadata=si("m"))
     force: tuple[float, ...] = field(converter=as_floats, metadata=si("N"))
     contact_area: tuple[float, ...] = field(converter=as_floats, metadata=si("m2"))
@@ -257,10 +259,10 @@ class LoadDisplacementCurve(Tabular):
     nominal_area: float = field(metadata=si("m2"))
     datum: str = ""
     error: float = field(default=0.0, metadata=si("-"))
-    _loading: Curve = field(init=False, repr=False, eq=False)
-    _area: Curve = field(init=False, repr=False, eq=False)
-    _plastic: Curve = field(init=False, repr=False, eq=False)
-    _residual: Curve = field(init=False, repr=False, eq=False)
+    _loading: Spline = field(init=False, repr=False, eq=False)
+    _area: Spline = field(init=False, repr=False, eq=False)
+    _plastic: Spline = field(init=False, repr=False, eq=False)
+    _residual: Spline = field(init=False, repr=False, eq=False)
     _works: tuple[float, ...] = field(init=False, repr=False, eq=False)
     _normalized: tuple[NormalizedUnloading, ...] = field(init=False, repr=False, eq=False)
     _ends: tuple[float, ...] = field(init=False, repr=False, eq=False)
@@ -317,15 +319,15 @@ class LoadDisplacementCurve(Tabular):
         found += [normalized(one) for one in self.unloading]
         return tuple(found)
 
-    def contents(self) -> Contents:
-        """Return force and areas of first loading over the approach."""
-        columns = {
-            "approach": (self.approach, "m"),
-            "force": (self.force, "N"),
-            "contact_area": (self.contact_area, "m2"),
-            "plastic_area": (self.plastic_area, "m2"),
-        }
-        return curve_contents("approach", columns, f"first loading, approach from {self.datum}")
+    @property
+    def title(self) -> str:
+        """See `Curve.title`."""
+        return f"first loading, approach from {self.datum}"
+
+    @property
+    def parts(self) -> Mapping[str, Any]:
+        """See `Curve.parts`."""
+        return {"unloading": self.unloading}
 
     # the contact ------------------------------------------------------------------------------
 

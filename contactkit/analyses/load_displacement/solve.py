@@ -67,7 +67,7 @@ def load_displacement(
     approaches: Sequence[float] | None = None,
     points: int = 32,
     decades: float = 4.0,
-    unloadings: int = 12,
+    n_unloadings: int = 12,
     accuracy: Accuracy | None = None,
     progress: Progress | None = None,
 ) -> LoadDisplacementCurve:
@@ -87,7 +87,7 @@ def load_displacement(
         Number of loads if none are given, in a geometric series.
     decades : float
         Decades of force that they span; of an imposed approach two thirds as many.
-    unloadings : int
+    n_unloadings : int
         Number of unloading curves at most.
     accuracy : Accuracy, optional
         Grid and tolerance of each contact.
@@ -147,7 +147,7 @@ def load_displacement(
     check_scene(scene, ContactScene)
     scene = _without_observers(scene)
     key, values = _series(scene, loads, approaches, points, decades)
-    n_unloadings = _count("unloadings", unloadings, 1)
+    n_unloadings = _count("n_unloadings", n_unloadings, 1)
     last = evolve(scene, loading=loading_of(key, values[-1]))
     plan = plan_contact(last, accuracy)  # refuses the maximum load before any solve
     report = progress or (lambda fraction: None)

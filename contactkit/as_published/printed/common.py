@@ -47,7 +47,7 @@ __all__ = [
     "viscous_sphere_3_27",
 ]
 
-_ROUND_OFF = 1e-14
+_ROUND_OFF = 1e-14  # of a curvature over that of the radius: less is a cylinder, not an arc
 
 
 def _pulled_angle(

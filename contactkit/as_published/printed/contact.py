@@ -11,8 +11,8 @@ import math
 
 __all__ = ["autocorrelation_2_42", "in_plane_stress_a_2", "mean_displacement_of_64_points"]
 
-_DECADE = 2.3
-_POINTS = 8  # 64 of them over the cell
+_DECADE = 2.3  # as printed in Eq. (2.42), for ln 10 = 2.3026
+_POINTS = 8  # in either direction: the source has 64 over the cell, 8.5 % below the exact mean
 
 
 def mean_displacement_of_64_points(

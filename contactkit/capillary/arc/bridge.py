@@ -24,7 +24,9 @@ from .shape import SPREADING, refuse_spreading
 __all__ = ["Bridge", "arc_bridge"]
 
 Array = NDArray[np.float64]
-_FLAT = 1e-60  # curvature times the size of the drop, below which it counts as zero
+# Curvature times the size of the drop, below which it counts as zero: the sag of the body is then
+# lost beside any gap, and squares of radii of curvature would overflow soon after (at 1e-154).
+_FLAT = 1e-60
 
 
 class Bridge(NamedTuple):

@@ -32,7 +32,10 @@ __all__ = [
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_SERIES = 0.25  # below this the remainder of the nine terms is below round-off
+# Half angle below which the moment is a series. At 0.25 both forms are off by 1e-14; the closed one
+# cancels to its cube (1e-13 at 0.05, 8e-11 at 0.003), the nine terms leave 1e-13 at 0.5, 4e-8 at 1.
+_SERIES = 0.25
+# Coefficients of half^(2k) / (2k) of the moment, k = 1 to 9: from Bernoulli numbers, exact.
 _MOMENT = (
     1 / 60,
     1 / 252,
@@ -86,9 +89,17 @@ def segment(half: Array) -> Segment:
 
 
 _RIGHT = np.pi / 2.0
-_COLD, _WARM = 30, 12  # maximum iterations from a cold start, and along a path
-_STEEP = np.pi / 4.0  # a steeper paraboloid has a second, far-away family of arcs
-_SETTLED = 1e-9  # relative Newton step; the error after it is of the order of its square
+# Maximum iterations from a cold start, and along a path. Of 1500 random pairs the same arcs are
+# found from 8 cold iterations on; with 8 more points go on to continuation, at 1.6 times the work,
+# with 60 it is the hopeless ones that cost. With 6 along a path continuation lost an arc; 24 gain
+# nothing.
+_COLD, _WARM = 30, 12
+# A steeper paraboloid has a second, far-away family of arcs. What is rejected is looked for again
+# by continuation: of 400 random pairs pi/8 to pi/2 found the same arcs.
+_STEEP = np.pi / 4.0
+# Relative Newton step. The error after it is of the order of its square: 1e-8 leaves 1e-14, 1e-6
+# leaves 5e-11 in the force, and saves a twelfth of the iterations.
+_SETTLED = 1e-9
 
 
 class Circle(NamedTuple):
@@ -259,7 +270,8 @@ def iterate(problem: Problem, profile: str, start: tuple[Array, Array] | None = 
             longest = np.maximum(abs(step1), abs(step2))
             d_turn = e.turn_lower * step1 + e.turn_upper * step2
             room = np.where(d_turn > 0.0, np.pi - e.turn, np.pi + e.turn)
-            # a distance is halved at most, and the chord stays above the horizontal
+            # The residuals have poles where the chord is horizontal, and a second family of roots
+            # beyond: a distance is halved at most, and 0.8 of the turn that is left is used.
             bound = np.where(room > 0.0, 0.8 * room / abs(d_turn), 1.0)
             scale = np.fmin(1.0, np.fmin(0.5 * size / longest, bound))
             one[active] += scale * step1

@@ -22,8 +22,12 @@ from ...numerics.quadrature import gauss_legendre
 __all__ = ["SPREADING", "ArcShape", "refuse_spreading", "shape", "wetting", "rounded_angle"]
 
 _RIGHT = math.pi / 2.0
-_NODES = 20  # at most three half periods of the integrand: exact to round-off
-SPREADING = 1e-8  # angles closer than this to the 0/180 pair have lost half their digits
+# Gauss-Legendre nodes over at most three half periods of the integrand. 12 reach round-off (5e-15),
+# 10 leave 5e-11, 8 leave 2e-7; more cost nothing, as shapes are cached.
+_NODES = 20
+# Angles closer than this to the 0/180 pair have lost half their digits: the offsets grow as its
+# inverse.
+SPREADING = 1e-8
 
 
 class ArcShape(NamedTuple):

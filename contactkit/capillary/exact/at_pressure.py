@@ -23,7 +23,9 @@ from .stability import no_bridge_error
 
 __all__ = ["branch_at_pressure", "bridge_at_pressure", "max_gap_at_pressure"]
 
-_VAST = 1e12  # of pressure over curvature, beyond which a film is lost in round-off
+# Of pressure over curvature. The ring of liquid has a contact radius of the inverse root of it:
+# beyond, its height, the square of that, is lost in round-off beside the size of the body.
+_VAST = 1e12
 _FLATS = (
     "no bridge between flats is stable at fixed pressure: the slit fills to its rim, or dries up; "
     "give a volume, or curve one of the bodies"

@@ -96,6 +96,9 @@ def _ahead(
     bodies: Pair, here: Free, direction: Array, step: float, pressure: float | None
 ) -> Free | None:
     """Bridge one step along the curve, in the plane normal to its direction."""
+    # Pseudo-arclength (Keller): the gap is an unknown too and the step is along the tangent, so
+    # that the system stays regular at a fold, where the Jacobian by the four unknowns alone is
+    # singular.
     weights = weights_of(here)
     origin = np.append(here.unknowns[:, 0], here.gap[0])
     y = origin + step * direction
@@ -145,12 +148,14 @@ def march_free(bodies: Pair, start: Array, gap: float, pressure: float | None = 
     for _ in range(400):
         new = _ahead(bodies, here, direction, step, pressure)
         now = None if new is None else _turned(tangent(new), direction, weights_of(new))
+        # Tangents that differ by more than 37 degrees (cosine 0.8): the curve bends too much for
+        # the step, or another curve was caught.
         if new is None or now is None or now @ (direction * weights_of(new) ** 2) < 0.8:
             step *= 0.5
             if step < 1e-6 or (here.gap[0] > limit * (1.0 - 1e-5)):
                 break
             continue
-        if now[4] <= 0.0:
+        if now[4] <= 0.0:  # the gap falls: a fold lies in this step; approach it by short ones
             if step > 1e-3:
                 step *= 0.25
                 continue
@@ -204,6 +209,8 @@ def _with_fold(
     low, high = 0.0, step
     f_low, f_high = float(direction[4]), -np.inf
     best, best_direction = here, direction
+    # False position on the slope of the gap along the curve; halving the value at the end that
+    # stays (Illinois) keeps it from creeping.
     for _ in range(60):
         middle = 0.5 * (low + high)
         if np.isfinite(f_high):

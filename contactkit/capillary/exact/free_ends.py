@@ -21,8 +21,8 @@ __all__ = ["Free", "at_gaps", "scaled_curvature", "descend", "newton", "tangent"
 Array = NDArray[np.float64]
 Rows = NDArray[np.complex128]  # a value and its complex steps in the directions of the unknowns
 
-_STEP = 1e-30  # of the complex-step derivative
-_STEPS = 400
+_STEP = 1e-30  # of the complex-step derivative, as in `chart`
+_STEPS = 400  # to be given up after; each is at most a third of the gap, and failed ones halve it
 _DIRECTIONS = np.concatenate((np.zeros((1, 4)), np.eye(4)))[:, :, None]
 
 
@@ -105,6 +105,8 @@ def newton(bodies: Pair, x: Array, gap: Array, pressure: float | None) -> FreeRo
         fine: NDArray[np.bool_] = np.isfinite(
             at.jacobian.sum(axis=(1, 2)) + at.residual.sum(axis=0)
         )
+        # Singular or infinite systems among many would stop the solution of all: they get a step of
+        # no meaning, and fail by their residual.
         square = np.where(fine[:, None, None], at.jacobian, np.eye(4))
         square[abs(np.linalg.det(square)) < 1e-280] = np.eye(4)
         step = np.linalg.solve(square, np.where(fine, at.residual, 0.0).T[..., None])[..., 0].T
@@ -121,6 +123,7 @@ def newton(bodies: Pair, x: Array, gap: Array, pressure: float | None) -> FreeRo
 
 def tangent(at: Free, i: int = 0) -> Array:
     """Direction of the curve in the unknowns and the gap, of unit length in `weights`."""
+    # The null vector of four equations in five unknowns, by singular values: regular at a fold too.
     rows = np.concatenate((at.jacobian[i], [[-1.0], [0.0], [0.0], [0.0]]), axis=1)
     weights = weights_of(at, i)
     direction = np.linalg.svd(rows / weights)[2][-1]
@@ -148,6 +151,8 @@ def descend(
     here, good = newton(bodies, start[:, None], np.array([start_gap]), pressure)
     if not good[0]:
         return found
+    # The determinant changes sign at a fold: a step to where it has the other sign has jumped over
+    # one.
     sign = np.sign(np.linalg.det(here.jacobian[0]))
     left, fraction = _STEPS, 0.2
     for i in np.argsort(-gaps):

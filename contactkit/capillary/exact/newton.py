@@ -21,8 +21,14 @@ __all__ = ["Problem", "Solution", "from_arc", "from_neck", "problem", "reorder_e
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
+# Of 3000 random bridges, started from the arc, 2103 are found within 6 iterations, 2212 within 10,
+# 2236 within 25 and 2242 within 100. The rest, mostly beyond their limit, are looked up on the
+# branch.
 _ITERATIONS = 25
-_SETTLED = 1e-8  # Newton step; the error after it is of the order of its square
+# Newton step in logarithms. The error after it is of the order of its square, as far as the
+# curvature of the problem allows: 1e-6 leaves 1e-10, 1e-4 leaves 1e-8 and sends 2 of 24 to the
+# branch.
+_SETTLED = 1e-8
 
 
 class Problem(NamedTuple):
@@ -139,6 +145,8 @@ def _residual(given: Problem, at: Point, a: Array) -> tuple[Array, Array, Array]
         target = a * given.given
         return at.ends.pressure - target, -at.shape_by_neck - target, -at.shape_by_chart
     ratio = at.volume / given.given
+    # In logarithms: the volume of a thin film is close to a power of both unknowns, over many
+    # decades.
     full = ratio > 0.0
     logarithm = np.log(np.where(full, ratio, 1.0))
     scale = np.where(full, at.volume, given.given)
@@ -165,6 +173,8 @@ def solve(
         determinant = at.gap_by_neck * second_by_chart - at.gap_by_chart * second_by_neck
         step1 = (at.gap_by_chart * second - first * second_by_chart) / determinant
         step2 = (first * second_by_neck - at.gap_by_neck * second) / determinant
+        # The logarithm of the neck radius moves by 0.5 at most (40 % of the radius), zeta by 1:
+        # about half of the distance over which the linearisation says anything.
         longest = np.maximum(abs(step1) / 0.5, abs(step2))
         scale = 1.0 / np.maximum(longest, 1.0)
         log_neck[active] += scale * step1
@@ -202,6 +212,7 @@ def neck_from_force(
     f = force / (2.0 * np.pi)
     root = np.sqrt(np.maximum(1.0 - 2.0 * f * pressure, 1e-6))
     shape = np.where(hollow, root, -root)
+    # a = 2f/(1 + e) = (1 - e)/P: whichever does not divide one small difference by another
     by_force = abs(1.0 + shape) > abs(1.0 - shape)
     top = np.where(by_force, 2.0 * f, 1.0 - shape)
     log_neck = top / np.where(by_force, 1.0 + shape, pressure)

@@ -26,7 +26,10 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Two = tuple[Array, Array]
 
-_RADII = np.geomspace(1e-9, 0.98, 400)  # of the contact circles, over the smaller radius
+# Of the contact circles, over the smaller radius of the bodies: wide enough for films of 1e12 times
+# the curvature of pressure, and for the equator. The table only brackets a start of Newton's
+# method.
+_RADII = np.geomspace(1e-9, 0.98, 400)
 
 
 def holds(found: Solution) -> Flags:
@@ -88,6 +91,8 @@ def branch_at_pressure(
         return problem(np.zeros(1), np.array([level]), angles, curvatures, at_pressure=True)
 
     with np.errstate(all="ignore"):
+        # A film starts Newton's method well only at pressures far below zero: lower the pressure
+        # until it does, then come back in steps of the drop, shorter ones where one fails.
         sharp = max(curvature_lower, curvature_upper)
         drop, level = 0.0, pressure
         found, _ = from_film(np.zeros(1), np.array([level]), angles, curvatures)

@@ -16,7 +16,9 @@ Array = NDArray[np.float64]
 Columns = dict[str, Array]
 
 KINDS = ("cylinder", "unduloid", "catenoid", "nodoid P<0", "sphere", "nodoid P>0")
-_SAME = 1e-9  # a shape this close to that of a cylinder, catenoid or sphere counts as one
+# A shape this close to that of a cylinder, catenoid or sphere counts as one. It only names them: an
+# error of e is some 1e-14, and angles typed with ten digits are to give the shape that is meant.
+_SAME = 1e-9
 _POWERS = {"pressure": -1, "volume": 3, "shape": 0, "stiffness": 0}  # of the unit of length
 
 

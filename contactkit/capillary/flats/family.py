@@ -19,7 +19,7 @@ from ..exact.delaunay import COMPLEX, NUMBERS, Body, Ends, body, ends, integrand
 
 __all__ = ["Member", "family", "last_member"]
 
-_STEP = 1e-30  # of the complex step
+_STEP = 1e-30  # of the complex step, as in `exact.chart`
 
 
 class Member(NamedTuple):
@@ -63,7 +63,8 @@ def _integrals(found: Ends) -> tuple[float, float, float, float]:
     from_bulge = bool(is_round(shape))
     low = -reach(NUMBERS, shape, found.limiting, from_bulge=from_bulge)
     span = reach(NUMBERS, shape, found.second, from_bulge=from_bulge) - low
-    # The nearest branch point is a right angle away for every shape: accurate to round-off.
+    # As in `exact.chart`. The nearest branch point is a right angle away for every shape: accurate
+    # to round-off.
     wanted = 6.0 + 20.0 / math.asinh(math.pi / max(abs(span), 1e-3))
     total = [0.0, 0.0, 0.0, 0.0]
     for node, weight in zip(*gauss_legendre(8 * math.ceil(wanted / 8.0)), strict=True):
@@ -115,7 +116,9 @@ def _last_chart(angle_lower: float, angle_upper: float, pinned: bool) -> float:
         return 1e-6  # remaining contact radius; its square is at round-off
     if symmetric and slope(1e-9) < 0.0:
         return 0.0
-    # For angles that add up to pi a film of zero gap is at zero, not at infinity.
+    # A bracket first, then false position: the slope is flat on the side of thin films, where
+    # Newton's method would leave the range. For angles that add up to pi a film of zero gap is at
+    # zero, not at infinity.
     step = 0.01 * max(min(limiting.sine, 1.0), 1e-6)
     if slope(step) < 0.0:
         high, low = step, -step

@@ -42,11 +42,22 @@ Pair = tuple[float, float]
 Loads = list[Complex | None]
 Mean = Literal["periodic", "free", "x", "y"]
 
-COARSE = 64  # points per side of the periodic window of a step
-WIDER = 4  # ratio of windows from step to step
-NARROWEST = 2.0  # side of the first window over that of the map
-SMOOTHING = 2.5  # width w of the smoothing in coarse pixels
-MARGIN = 6  # coarse points beyond the map, so that its edge is not the edge of the splines
+# Measured on a Hertzian load over half of the map, with friction, homogeneous and under a layer 100
+# times as stiff; errors over the largest pressure.
+
+# Points per side of the periodic window of a step: 64 leave 2e-9, 32 5e-6; 128 take four times as
+# long.
+COARSE = 64
+WIDER = 4  # ratio of windows from step to step: two steps to 32 maps, on a wide grid of 256 points
+# Side of the first window over that of the map: the nearest image is then a whole map away, and its
+# field smooth within it. Less, and images touch; more costs its square in the transforms of the
+# map.
+NARROWEST = 2.0
+# Width w of the smoothing in coarse pixels. Narrower, it aliases (2e-9 at 2, 1e-6 at 1.5); wider,
+# it blurs the load (2e-8 at 3.5, 3e-6 at 5).
+SMOOTHING = 2.5
+# Coarse points beyond the map, so that its edge is not that of the splines: 6 leave 1e-11, 2 2e-10.
+MARGIN = 6
 
 
 class Step(NamedTuple):

@@ -24,7 +24,9 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-BLOCK = 16384  # points per block, so that intermediate results stay in the cache
+# Points per block, so that intermediate results stay in the cache: 1024 take twice as long (calls),
+# a million 1.6 times.
+BLOCK = 16384
 
 
 def sqrt_j2(stress: Array) -> Array:

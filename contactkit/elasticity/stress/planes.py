@@ -56,8 +56,11 @@ Loads = list[Complex | None]
 
 _AXES: tuple[Literal["x", "y"], ...] = ("x", "y")
 _TURN = (1.0, -1j, -1j)  # of pressure and tractions: their symbols are real then
-CUTOFF = 40.0  # of alpha z: modes beyond carry (1 + 40) exp(-40) = 2e-16 of their load
-CUTOFF_READ = 24.0  # the same for a map that is read to 1e-5
+# Of alpha z: modes beyond carry (1 + 40) exp(-40) = 2e-16 of their load. A stress changes by 6e-14
+# with 30 and by 1e-9 with 20, over the largest pressure; modes and time go with its square at a
+# depth.
+CUTOFF = 40.0
+CUTOFF_READ = 24.0  # the same for a map that is read to 1e-5: 18 leave 5e-9, 12 leave 4e-6
 
 
 class Plane(NamedTuple):

@@ -24,7 +24,10 @@ Array = NDArray[np.float64]
 Pair = tuple[float, float]
 Loads = list[NDArray[np.complex128] | None]
 
-PERIODS = 3.0  # padding in periods: exp(-6 pi) = 7e-9 of the images of waves along is left
+# Padding in periods: exp(-6 pi) = 7e-9 of the images of waves along is left. The stress changes by
+# 6e-9 of the largest pressure in the median with 2, by 1e-6 with 1; the padded rows cost their
+# time.
+PERIODS = 3.0
 
 
 class LineStep(NamedTuple):

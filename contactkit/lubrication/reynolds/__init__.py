@@ -5,7 +5,7 @@ gaps             Gap maps: flat, tilted, domed, wavy, with recesses, measured.
 film             A film and its states: forces, volumes, power.
 validity         Ranges of validity of a solved film.
 solve            Pressure at an instant, steady sliding, a step in time.
-motion           Films in time: a prescribed gap, a mass that is pulled.
+motion           Films in time, along a prescribed gap.
 damping          Damping laws c(h) of full films: closed forms and tables, without numpy.
 shape_factor     Damping laws of any face, rough ones too, by the solver.
 rough_flow       Steady flow through rough gaps: flow factors, leakage.
@@ -19,7 +19,7 @@ Examples
 >>> from contactkit.lubrication import reynolds
 >>> from contactkit.scene.planforms import Ring
 >>> face = reynolds.rasterise(Ring(radius=3e-3, hole_radius=1e-3), 64)
->>> film = reynolds.Film(face=face, viscosity=0.1)
+>>> film = reynolds.GridFilm(face=face, viscosity=0.1)
 >>> pull = reynolds.solve_pressure(film, 1e-5, 1e-5).force
 """
 
@@ -29,15 +29,14 @@ _HOMES = {
     "DampingLaw": "damping",
     "DomeDamping": "damping",
     "Face": "face",
-    "Film": "film",
-    "FilmState": "film",
+    "GridFilm": "film",
+    "GridFilmState": "film",
     "FlowFactors": "rough_flow",
     "Hole": "face",
     "HoleState": "film",
     "Leakage": "rough_flow",
     "Pocket": "face",
     "PowerDamping": "damping",
-    "PullState": "motion",
     "TabulatedDamping": "damping",
     "Waviness": "gaps",
     "at_rest": "solve",
@@ -53,7 +52,6 @@ _HOMES = {
     "follow_gap": "motion",
     "gap_map": "gaps",
     "leakage": "rough_flow",
-    "pull_apart": "motion",
     "rasterise": "face",
     "recess_damping": "damping",
     "rectangle_damping": "damping",

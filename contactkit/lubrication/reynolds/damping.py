@@ -59,7 +59,7 @@ def film_tension(tension: float, strength: float) -> ValidityNumber:
         value=1.0 if abs(value - 1.0) < 1e-9 else value,
         high=1.0,
         detail=f"the liquid is at {tension / 1e5:.3g} bar below ambient, and would have torn at "
-        f"{bears / 1e5:.3g} bar; give the film a cavity_pressure and a tensile_strength, or move "
+        f"{bears / 1e5:.3g} bar; give the film a TensionLimit (a drop and a strength), or move "
         f"more slowly",
         source="strength as given; else a vacuum at ambient pressure",
     )

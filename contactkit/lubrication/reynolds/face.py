@@ -70,8 +70,8 @@ def _outline(owner: object, attribute: Attribute[Any], value: Any) -> None:
 class Hole(Described):
     """A hole in a face, held at a pressure: a vent, a feed, the recess of a hydrostatic pad.
 
-    `FilmState.holes` has the flow out of each and the force of its pressure on the face, which
-    `FilmState.pad_force` counts and `FilmState.force`, that of the film, does not.
+    `GridFilmState.holes` has the flow out of each and the force of its pressure on the face, which
+    `GridFilmState.pad_force` counts and `GridFilmState.force`, that of the film, does not.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A film and its states: pressure, liquid fraction, forces, volumes and power."""
+"""A film on a grid and its states: pressure, liquid fraction, forces, volumes and power."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["Film", "FilmState", "HoleState"]
+__all__ = ["GridFilm", "GridFilmState", "HoleState"]
 
 
 @frozen(kw_only=True, eq=False, slots=False)
-class Film(Described):
+class GridFilm(Described):
     """Liquid between two faces, and what it does under tension.
 
     Parameters
@@ -36,15 +36,16 @@ class Film(Described):
         Dynamic viscosity [Pa.s].
     ambient : float
         Pressure on the outside of the faces [Pa], from the same zero as those of the reservoirs.
-    cavity_pressure : float
-        Pressure in a cavity [Pa]; by default minus infinity: the film never tears.
+    drop : float
+        Pressure in a cavity, as a drop below ambient [Pa]; by default infinite: the film never
+        cavitates.
     tensile_strength : float, optional
         Tension below ambient at which an intact film tears [Pa], inf for one that never does. By
-        default that of the cavity, ambient - cavity_pressure.
+        default that of the cavity, `drop`.
     compressibility : float
         Compressibility of the liquid in the gap [1/Pa]; a film without a reservoir needs it.
     density : float, optional
-        Density of the liquid [kg/m3], for the Reynolds number among `FilmState.validity`.
+        Density of the liquid [kg/m3], for the Reynolds number among `GridFilmState.validity`.
 
     Notes
     -----
@@ -55,29 +56,29 @@ class Film(Described):
     face: Face = field(validator=part(Face))
     viscosity: float = field(validator=positive, metadata=si("Pa.s"))
     ambient: float = field(default=0.0, validator=finite, metadata=si("Pa"))
-    cavity_pressure: float = field(default=-math.inf, metadata=si("Pa"))
+    drop: float = field(default=math.inf, metadata=si("Pa"))
     tensile_strength: float | None = field(default=None, metadata=si("Pa"))
     compressibility: float = field(default=0.0, validator=non_negative, metadata=si("1/Pa"))
     density: float | None = field(default=None, validator=optional(positive), metadata=si("kg/m3"))
 
-    @cavity_pressure.validator
-    def _check_cavity(self, attribute: Attribute[float], value: Any) -> None:
-        if value == -math.inf:
+    @drop.validator
+    def _check_drop(self, attribute: Attribute[float], value: Any) -> None:
+        if value == math.inf:
             return
         finite(self, attribute, value)
-        lowest = min(self.ambient, self.lowest_reservoir)
-        if value > lowest:
-            cure = f"the lowest pressure around the film is {lowest:g} Pa"
-            raise refuse(self, attribute, value, "not exceed the pressure around the film", cure)
+        least = self.ambient - min(self.ambient, self.lowest_reservoir)
+        if value < least:
+            cure = f"the lowest pressure around the film is {least:g} Pa below ambient"
+            raise refuse(self, attribute, value, "lead below the pressure around the film", cure)
 
     @tensile_strength.validator
     def _check_strength(self, attribute: Attribute[Any], value: Any) -> None:
         if value is None or value == math.inf:
             return
         non_negative(self, attribute, value)
-        if value < (self.ambient - self.cavity_pressure) * (1.0 - 1e-12):
-            cure = "a film that tears earlier has a cavity of a higher pressure: raise that"
-            expected = f"be at least ambient - cavity_pressure = {self.cavity_tension:g}"
+        if value < self.drop * (1.0 - 1e-12):
+            cure = "a film that cavitates earlier has a cavity of a higher pressure: lower the drop"
+            expected = f"be at least the drop to the cavity, {self.drop:g}"
             raise refuse(self, attribute, value, expected, cure)
 
     @property
@@ -87,14 +88,14 @@ class Film(Described):
         return float(around.min()) if around.size else self.ambient
 
     @property
-    def cavity_tension(self) -> float:
-        """Tension below ambient in a cavity, ambient - cavity_pressure [Pa]."""
-        return self.ambient - self.cavity_pressure
+    def floor(self) -> float:
+        """Pressure in a cavity [Pa], from the zero of `ambient`."""
+        return self.ambient - self.drop
 
     @property
     def strength(self) -> float:
         """Tension below ambient at which an intact film tears [Pa]."""
-        return self.cavity_tension if self.tensile_strength is None else self.tensile_strength
+        return self.drop if self.tensile_strength is None else self.tensile_strength
 
 
 class HoleState(NamedTuple):
@@ -111,12 +112,12 @@ class HoleState(NamedTuple):
 
 
 @frozen(kw_only=True, eq=False, slots=False)
-class FilmState:
+class GridFilmState:
     """Film at one instant.
 
     Parameters
     ----------
-    film : Film
+    film : GridFilm
         The film.
     gap : ndarray, shape (ny, nx)
         Gap [m].
@@ -140,7 +141,7 @@ class FilmState:
         Time [s].
     """
 
-    film: Film
+    film: GridFilm
     gap: Array = field(repr=False)
     pressure: Array = field(repr=False)
     liquid_fraction: Array = field(repr=False)
@@ -304,7 +305,7 @@ class FilmState:
         return walls[0], walls[1]
 
 
-def _gradient(state: FilmState) -> tuple[Array, Array]:
+def _gradient(state: GridFilmState) -> tuple[Array, Array]:
     """Pressure gradient in each cell along y and x: means of those at its two sides [Pa/m]."""
     slopes = np.zeros((2, state.pressure.size))
     if state.balance is None:

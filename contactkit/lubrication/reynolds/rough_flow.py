@@ -16,7 +16,7 @@ import numpy as np
 from ...errors import DescriptionError
 from ...validity import warn
 from .face import SOLID, face_from_level
-from .film import Film
+from .film import GridFilm
 from .linear_systems import choose_solver, solve_sparse
 from .solve import solve_pressure
 from .validity import roughness_number
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ...validity import ValidityNumber
-    from .film import FilmState
+    from .film import GridFilmState
 
     Array = NDArray[np.floating[Any]]
 
@@ -65,12 +65,12 @@ class Leakage(NamedTuple):
     """Pressure [Pa]; 0 where nothing flows."""
     carries: NDArray[np.bool_]
     """Cells on a path from one reservoir to the other."""
-    state: FilmState | None
+    state: GridFilmState | None
     """The solved film; None if no path leads through."""
 
     @property
     def validity(self) -> tuple[ValidityNumber, ...]:
-        """See `FilmState.validity`; nothing without a path."""
+        """See `GridFilmState.validity`; nothing without a path."""
         return () if self.state is None else self.state.validity
 
 
@@ -199,7 +199,7 @@ def leakage(
         solid=np.pad(~carries, pad, constant_values=False),
     )
     wide = np.where(face.owner == SOLID, 0.0, np.pad(height, pad, mode="edge").clip(0.0))
-    film = Film(face=face, viscosity=viscosity)
+    film = GridFilm(face=face, viscosity=viscosity)
     state = solve_pressure(film, np.where(face.inside, wide, 1.0), solver=solver)
     first = (0, slice(None)) if axis == 0 else (slice(None), 0)
     index = np.arange(level.size).reshape(level.shape)[first]

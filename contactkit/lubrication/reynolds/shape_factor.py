@@ -17,7 +17,7 @@ from ...errors import DescriptionError
 from ...validity import warn
 from .damping import PowerDamping, TabulatedDamping
 from .face import Face
-from .film import Film, FilmState
+from .film import GridFilm, GridFilmState
 from .rough_flow import patch_factors
 from .solve import unchecked_pressure
 from .validity import roughness_number
@@ -243,7 +243,7 @@ def rough_damping(
     )
 
 
-def _unit_state(face: Face, gap: Array, solver: str | None) -> FilmState:
+def _unit_state(face: Face, gap: Array, solver: str | None) -> GridFilmState:
     """Film of unit viscosity whose gap grows at unit speed, from one pressure all around."""
     around = face.pressure[face.owner == -1]
     if around.size and around.min() < around.max():
@@ -255,12 +255,12 @@ def _unit_state(face: Face, gap: Array, solver: str | None) -> FilmState:
             hint="with several, use `solve_pressure` at each speed",
         )
     level = float(around[0]) if around.size else 0.0
-    film = Film(face=face, viscosity=1.0, ambient=level)
+    film = GridFilm(face=face, viscosity=1.0, ambient=level)
     state = unchecked_pressure(film, gap, 1.0, solver=solver)
     return evolve(state, film=film, pressure=state.pressure - level) if level else state
 
 
-def _mean_inverse_gap(state: FilmState) -> float:
+def _mean_inverse_gap(state: GridFilmState) -> float:
     """Mean of 3/h weighted by the dissipation: -d ln c/dh, exact for the discrete film [1/m]."""
     balance: Any = state.balance
     mesh, p, h = balance.mesh, state.pressure.ravel(), state.gap.ravel()

@@ -18,7 +18,7 @@ from .complementarity import (
 )
 from .discretisation import Balance, checked_gap, discretise, mesh_of, per_unknown
 from .face import Face, block_means
-from .film import Film, FilmState
+from .film import GridFilm, GridFilmState
 from .linear_systems import choose_solver
 from .validity import warn_new
 
@@ -51,7 +51,7 @@ Velocity = tuple[float, float]
 class Task(NamedTuple):
     """Task of one solution, as maps that a coarser grid takes too."""
 
-    film: Film
+    film: GridFilm
     face: Face
     gap: Array
     growth: Array
@@ -71,12 +71,12 @@ class Task(NamedTuple):
     """Guess of the full cells; None: those that are full before the step."""
 
 
-def at_rest(film: Film, gap: ArrayLike, liquid_fraction: ArrayLike = 1.0) -> FilmState:
+def at_rest(film: GridFilm, gap: ArrayLike, liquid_fraction: ArrayLike = 1.0) -> GridFilmState:
     """A film before it moves: ambient pressure, full or with a given cavity.
 
     Parameters
     ----------
-    film : Film
+    film : GridFilm
         The film.
     gap : array_like, shape () or (ny, nx)
         Gap [m].
@@ -93,7 +93,7 @@ def at_rest(film: Film, gap: ArrayLike, liquid_fraction: ArrayLike = 1.0) -> Fil
     >>> from contactkit.lubrication.reynolds.face import rasterise
     >>> from contactkit.scene.planforms import Rectangle
     >>> face = rasterise(Rectangle(length=1e-3, width=1e-3), 18)
-    >>> round(at_rest(Film(face=face, viscosity=0.1), 1e-6).liquid_volume, 18)
+    >>> round(at_rest(GridFilm(face=face, viscosity=0.1), 1e-6).liquid_volume, 18)
     1e-12
     """
     face = film.face
@@ -106,8 +106,8 @@ def at_rest(film: Film, gap: ArrayLike, liquid_fraction: ArrayLike = 1.0) -> Fil
         worst = float(fraction.flat[np.argmax(np.abs(fraction - 0.5))])
         raise DescriptionError("liquid_fraction", worst, "lie between 0 and 1")
     fraction = np.where(face.loaded, fraction, 1.0)
-    torn = (fraction < 1.0).any() and math.isfinite(film.cavity_pressure)
-    state = FilmState(
+    torn = (fraction < 1.0).any() and math.isfinite(film.drop)
+    state = GridFilmState(
         film=film,
         gap=height,
         pressure=np.where(face.loaded, film.ambient, face.pressure),
@@ -119,19 +119,19 @@ def at_rest(film: Film, gap: ArrayLike, liquid_fraction: ArrayLike = 1.0) -> Fil
 
 
 def solve_pressure(
-    film: Film,
+    film: GridFilm,
     gap: ArrayLike,
     rate: ArrayLike = 0.0,
     *,
     lower_velocity: Velocity = _AT_REST,
     upper_velocity: Velocity = _AT_REST,
     solver: str | None = None,
-) -> FilmState:
+) -> GridFilmState:
     r"""Pressure of a full film at an instant.
 
     Parameters
     ----------
-    film : Film
+    film : GridFilm
         The film. With a cavity pressure it is the floor of the pressure (Swift and Stieber): no
         memory, and liquid is lost where the floor ends.
     gap : array_like, shape () or (ny, nx)
@@ -146,7 +146,7 @@ def solve_pressure(
 
     Returns
     -------
-    FilmState
+    GridFilmState
         Pressure, force, torque and traction; `liquid_fraction` is 1.
 
     Raises
@@ -167,7 +167,7 @@ def solve_pressure(
     >>> from contactkit.scene.planforms import Disc
     >>> from contactkit.lubrication.squeeze_film import disc_force
     >>> face = rasterise(Disc(radius=3.175e-3), 64)
-    >>> state = solve_pressure(Film(face=face, viscosity=0.1), 1e-5, 1e-5)
+    >>> state = solve_pressure(GridFilm(face=face, viscosity=0.1), 1e-5, 1e-5)
     >>> abs(state.force / disc_force(3.175e-3, 1e-5, 1e-5, 0.1) - 1.0) < 1e-3
     True
     """
@@ -178,13 +178,13 @@ def solve_pressure(
 
 
 def unchecked_pressure(
-    film: Film,
+    film: GridFilm,
     gap: ArrayLike,
     rate: ArrayLike = 0.0,
     velocities: tuple[Velocity, Velocity] = (_AT_REST, _AT_REST),
     solver: str | None = None,
     full: NDArray[np.bool_] | None = None,
-) -> FilmState:
+) -> GridFilmState:
     """See `solve_pressure`, without its numbers of validity: of unit films.
 
     `full` is a guess of the cells without a cavity, (ny, nx).
@@ -192,7 +192,7 @@ def unchecked_pressure(
     face = film.face
     lower_velocity, upper_velocity = velocities
     height = checked_gap(face, gap)
-    floor = film.cavity_pressure
+    floor = film.floor
     task = Task(
         film=film,
         face=face,
@@ -213,18 +213,18 @@ def unchecked_pressure(
 
 
 def steady_film(
-    film: Film,
+    film: GridFilm,
     gap: ArrayLike,
     *,
     lower_velocity: Velocity = _AT_REST,
     upper_velocity: Velocity = _AT_REST,
     solver: str | None = None,
-) -> FilmState:
+) -> GridFilmState:
     """Steady state of a sliding film, mass-conserving where it tears.
 
     Parameters
     ----------
-    film : Film
+    film : GridFilm
         The film; without a cavity pressure it stays full.
     gap, lower_velocity, upper_velocity, solver
         See `solve_pressure`.
@@ -250,7 +250,7 @@ def steady_film(
         face=face,
         gap=checked_gap(face, gap),
         growth=np.zeros(face.shape),
-        floor=np.full(face.shape, film.cavity_pressure),
+        floor=np.full(face.shape, film.floor),
         fraction=np.ones(face.shape),
         pressure=face.pressure,
         velocity=velocity,
@@ -266,19 +266,19 @@ def steady_film(
 
 
 def step_film(
-    state: FilmState,
+    state: GridFilmState,
     gap: ArrayLike,
     dt: float,
     *,
     lower_velocity: Velocity = _AT_REST,
     upper_velocity: Velocity = _AT_REST,
     solver: str | None = None,
-) -> FilmState:
+) -> GridFilmState:
     r"""Film after a step in time: mass-conserving, with the memory of where it has torn.
 
     Parameters
     ----------
-    state : FilmState
+    state : GridFilmState
         State before the step (`at_rest`, or the result of a step).
     gap : array_like, shape () or (ny, nx)
         Gap after the step [m].
@@ -289,7 +289,7 @@ def step_film(
 
     Returns
     -------
-    FilmState
+    GridFilmState
         State after the step. The volume of liquid has changed by dt times its `inflow`, to
         round-off.
 
@@ -312,7 +312,7 @@ def step_film(
     >>> from contactkit.lubrication.reynolds.face import rasterise
     >>> from contactkit.scene.planforms import Disc
     >>> face = rasterise(Disc(radius=3.175e-3), 32)
-    >>> film = Film(face=face, viscosity=0.1, cavity_pressure=-1e6)
+    >>> film = GridFilm(face=face, viscosity=0.1, drop=1e6)
     >>> before = at_rest(film, 5e-6)
     >>> after = step_film(before, 6e-6, 1e-5)
     >>> gained = after.liquid_volume - before.liquid_volume
@@ -327,13 +327,13 @@ def step_film(
 
 
 def unchecked_step(
-    state: FilmState,
+    state: GridFilmState,
     gap: ArrayLike,
     dt: float,
     velocities: tuple[Velocity, Velocity] = (_AT_REST, _AT_REST),
     solver: str | None = None,
     full: NDArray[np.bool_] | None = None,
-) -> FilmState:
+) -> GridFilmState:
     """See `step_film`, without its numbers of validity: of trial steps.
 
     `full` is a guess of the cells without a cavity, (ny, nx).
@@ -361,7 +361,7 @@ def unchecked_step(
     balance, found = _solve(task)
     count = found.iterations
     new_torn = _torn(balance.mesh, face, found.void)
-    if film.strength > film.cavity_tension and (new_torn & ~torn).any():
+    if film.strength > film.drop and (new_torn & ~torn).any():
         # The strength is that of the intact film: the cavity has its own pressure at once.
         torn = torn | new_torn
         task = task._replace(floor=_floors(film, torn))
@@ -448,9 +448,9 @@ def _rate_map(face: Face, rate: ArrayLike) -> Array:
     return np.array(np.broadcast_to(given, face.shape))
 
 
-def _floors(film: Film, torn: NDArray[np.bool_]) -> Array:
+def _floors(film: GridFilm, torn: NDArray[np.bool_]) -> Array:
     """Least pressure of each cell: that of a cavity where the liquid has torn."""
-    return np.where(torn, film.cavity_pressure, film.ambient - film.strength)
+    return np.where(torn, film.floor, film.ambient - film.strength)
 
 
 def _torn(mesh: Mesh, face: Face, void: Array) -> NDArray[np.bool_]:
@@ -562,7 +562,7 @@ def _every_second(values: Array) -> Array:
     return values[tuple(slice(None, None, 2) if n > 1 else slice(None) for n in values.shape)]
 
 
-def _state(task: Task, balance: Balance, found: Solution) -> FilmState:
+def _state(task: Task, balance: Balance, found: Solution) -> GridFilmState:
     face, mesh = task.face, balance.mesh
     pressure, fraction = face.pressure.copy().ravel(), np.ones(face.level.size)
     which = mesh.number[mesh.loaded]
@@ -570,7 +570,7 @@ def _state(task: Task, balance: Balance, found: Solution) -> FilmState:
     fraction[mesh.loaded] = 1.0 - found.void[which]
     pressure, fraction = pressure.reshape(face.shape), fraction.reshape(face.shape)
     torn = np.zeros(face.shape, bool)
-    return FilmState(
+    return GridFilmState(
         film=task.film,
         gap=task.gap,
         pressure=pressure,

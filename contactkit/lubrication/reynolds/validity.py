@@ -29,7 +29,7 @@ _THINNEST = 0.5  # gap over rms roughness
 
 
 class SolvedFilm(Protocol):
-    """State of a film as its numbers of validity see it; see `FilmState`."""
+    """State of a film as its numbers of validity see it; see `GridFilmState`."""
 
     @property
     def film(self) -> Any:

@@ -2,65 +2,52 @@
 
 from __future__ import annotations
 
-from ...analyses.adhesion_curve import AdhesionCurve
+from collections.abc import Callable
+from functools import partial
+
 from ...analyses.division import DivisionResult
-from ...analyses.humidity_curve import HumidityCurve
-from ...analyses.load_curve import LoadCurve
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...analyses.pull_off import PullOffCurve
 from ...analyses.stick_slip import StickSlip
+from ...errors import nearest
+from ...scene.curve import Curve
 from .. import adhesion, load_displacement, slip
 from ..style import Axes
 from .base import CurveFigures, registered_figures
 
 __all__ = [
-    "AdhesionFigures",
+    "AnyCurveFigures",
     "DivisionFigures",
-    "HumidityFigures",
-    "LoadCurveFigures",
     "LoadDisplacementFigures",
     "PullOffFigures",
     "StickSlipFigures",
 ]
 
 
-@registered_figures.register(LoadCurve)
-class LoadCurveFigures(CurveFigures[LoadCurve]):
-    """Figures of a load curve."""
+@registered_figures.register(Curve)
+class AnyCurveFigures(CurveFigures[Curve]):
+    """Figures of any curve: those that its class names, `Curve.shown`, and its columns."""
 
-    def area(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the real area of contact over the load."""
-        return self.curves("contact_area", ax=ax)
+    def __getattr__(self, name: str) -> Callable[..., Axes]:
+        """Return the function that draws a figure of `Curve.shown`."""
+        if name[0] == "_" or name not in self._owner.shown:
+            known = ", ".join(self.available)
+            raise AttributeError(f"no figure {name!r}; {nearest(name, self.available)}; {known}")
+        columns, over = self._owner.shown[name]
+        draw: Callable[..., Axes] = partial(self.curves, *columns, over=over)
+        return draw
 
-    def pressure(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the maximum pressure over the load."""
-        return self.curves("max_pressure", ax=ax)
+    @property
+    def available(self) -> tuple[str, ...]:
+        """Names of the figures that can be drawn."""
+        return tuple(dict.fromkeys((*super().available, *self._owner.shown)))
 
-    def load(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the load over the approach."""
-        return self.curves("load", over="approach", ax=ax)
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._owner.shown]
 
-
-@registered_figures.register(HumidityCurve)
-class HumidityFigures(CurveFigures[HumidityCurve]):
-    """Figures of a humidity curve."""
-
-    def force(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the force of all menisci over the relative humidity."""
-        return self.curves("force", ax=ax)
-
-
-@registered_figures.register(AdhesionCurve)
-class AdhesionFigures(CurveFigures[AdhesionCurve]):
-    """Figures of an adhesive contact of a sphere."""
-
-    def radii(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the radii of contact and cohesive zone over the load."""
-        return self.curves("contact_radius", "cohesive_radius", ax=ax)
-
-    def load(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the load over the approach."""
-        return self.curves("load", over="approach", ax=ax)
+    def pictures(self) -> dict[str, Callable[[], Axes]]:
+        """See `Figures.pictures`."""
+        return {name: getattr(self, name) for name in self._owner.shown} or super().pictures()
 
 
 @registered_figures.register(DivisionResult)

@@ -18,7 +18,6 @@ from ...units import si
 from ...validators import choice, optional, positive
 from ...validity import ValidityNumber
 from .base import ForceLaw, ForcePart, SeparationForce
-from .viscous import ViscousForce
 
 if TYPE_CHECKING:
     from ...scene.interface import Interface
@@ -114,7 +113,8 @@ class VanDerWaalsForce(SeparationForce):
             return float(n * one)
 
         of_spheres = whole_sphere if self.closure == "hamaker" else near_sphere
-        return ForceLaw(between_flats if interface.is_flat else of_spheres, (cutoff,))
+        law = between_flats if interface.is_flat else of_spheres
+        return ForceLaw(law, (cutoff,), rate="none")
 
     def rimless_radius(self, prepared: PreparedScene[SeparationScene], gap: float) -> float:
         """See `SeparationEffect.rimless_radius`: the circle that has 99 % of the attraction."""
@@ -212,14 +212,14 @@ class AdhesiveContact(SeparationForce):
         for other in scene.effects:
             if not isinstance(other, SeparationForce) or not other.needs_film:
                 continue
-            if not isinstance(other, ViscousForce):
+            if other.newtonian is None:  # not that of a flowing liquid
                 missing.append(
                     f"{type(other).__name__}() left out: the capillary work of adhesion is that "
                     "meniscus; give work_of_adhesion [J/m2] of the solids to have both"
                 )
         if _wetting(scene) <= 0.0:
             missing.append("contact angles that sum up to less than 180 deg: the liquid repels")
-        if self.model != "jkr" and self.strength is None and scene.liquid_pressure is None:
+        if self.model != "jkr" and self.strength is None and not scene.meniscus.has_pressure:
             missing.append("AdhesiveContact.strength [Pa], the suction of the liquid")
         return tuple(missing)
 
@@ -312,7 +312,7 @@ class AdhesiveContact(SeparationForce):
             return self.strength
         if self.work_of_adhesion != "capillary":
             return float(cohesive_stress(work, self.equilibrium_distance))
-        pressure = prepared.scene.liquid_pressure
+        pressure = prepared.liquid_pressure
         return None if pressure is None else -pressure
 
 
@@ -409,8 +409,11 @@ def law(found: AdhesionNumbers, count: int, start: float) -> ForceLaw:
     touch = contact.touch_gap * length
     kinks = (touch,) if touch < end else ()
     if found.release_force < _NOTHING * found.pull_off_force:  # ends without a jump, as with DMT
-        return ForceLaw(lambda gap, v: force(gap, v) if gap < end else 0.0, (*kinks, end))
-    return ForceLaw(force, kinks, release=end, recontact=max(start, contact.reach * length))
+        return ForceLaw(
+            lambda gap, v: force(gap, v) if gap < end else 0.0, (*kinks, end), rate="none"
+        )
+    again = max(start, contact.reach * length)
+    return ForceLaw(force, kinks, release=end, recontact=again, rate="none")
 
 
 def cohesive_radius(found: AdhesionNumbers, gap: float) -> float:

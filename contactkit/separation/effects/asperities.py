@@ -124,7 +124,7 @@ class AsperityMenisci(SeparationForce):
                 "interface.meniscus.pressure [Pa] or meniscus_height [m], not a volume: which "
                 "summits share it is not known"
             )
-        elif (scene.liquid_pressure is None) == (self.meniscus_height is None):
+        elif scene.meniscus.has_pressure is not (self.meniscus_height is None):
             missing.append("either interface.meniscus.pressure [Pa] or meniscus_height [m]")
         if _wetting(scene) <= 0.0:
             missing.append(
@@ -154,7 +154,7 @@ class AsperityMenisci(SeparationForce):
         if self.meniscus_height is not None:
             return self.meniscus_height
         pressure, tension = (
-            prepared.scene.liquid_pressure,
+            prepared.liquid_pressure,
             prepared.liquid.surface_tension,
         )
         return float(meniscus_height(pressure, tension, _wetting(prepared.scene)))
@@ -163,7 +163,7 @@ class AsperityMenisci(SeparationForce):
         """See `SeparationForce.prepare`."""
         if self.profile == "thin-film":
             end = self.height(prepared) if self.law == "identical" else math.inf
-            return ForceLaw(lambda gap, speed: self.sums(prepared, gap).force, end=end)
+            return ForceLaw(lambda gap, speed: self.sums(prepared, gap).force, end=end, rate="none")
         return _exact_law(self, prepared)
 
     def sums(self, prepared: PreparedScene[SeparationScene], gap: float) -> AsperitySum:
@@ -224,7 +224,11 @@ def _exact_law(effect: AsperityMenisci, prepared: PreparedScene[SeparationScene]
     if effect.law == "identical":
         last = reach * (1.0 - 1e-12)  # a trial step may look beyond the end
         return ForceLaw(
-            lambda gap, speed: number * tension * float(one(np.asarray(min(gap, last)))), end=reach
+            lambda gap, speed: number * tension * float(one(np.asarray(min(gap, last)))),
+            end=reach,
+            rate="none",
         )
     spread = population.rms_height
-    return ForceLaw(lambda gap, speed: number * tension * gaussian_average(one, reach, gap, spread))
+    return ForceLaw(
+        lambda gap, speed: number * tension * gaussian_average(one, reach, gap, spread), rate="none"
+    )

@@ -19,6 +19,7 @@ from attrs import field, frozen
 from ...errors import NotSimulatedError
 from ...scene.column import Column
 from ...scene.effect import Effect
+from .force_law import ForceLaw
 
 if TYPE_CHECKING:
     import numpy as np
@@ -50,8 +51,6 @@ __all__ = [
     "SeparationForce",
     "effects_of",
 ]
-
-_INF = float("inf")
 
 Limiter = Callable[[float, float, float], float]
 """Force [N] that is left of a Newtonian force [N]: called with (gap, speed, force)."""
@@ -150,26 +149,6 @@ class RunCurves(NamedTuple):
     gap: Curve
     whole: NDArray[np.bool_]
     volume_fraction: Curve
-
-
-@frozen(eq=False)
-class ForceLaw:
-    """Prepared force law: F(h, v), the gaps at which its slope jumps, and its range.
-
-    `force` is called with (gap [m], speed [m/s]) and gives [N]. `kinks` are gaps at which its
-    slope jumps, `end` the gap beyond which it does not exist (inf: none). A contact of solids pulls
-    off where the gap exceeds `release`, and is there again once that has closed to `recontact`; the
-    law goes on smoothly beyond. It is known up to the gap `known_to`, and constant beyond. At
-    `poles` it is infinite and changes its sign: it has no impulse over them.
-    """
-
-    force: Callable[[float, float], float]
-    kinks: tuple[float, ...] = ()
-    end: float = _INF
-    release: float = _INF
-    recontact: float = 0.0
-    known_to: float = _INF
-    poles: tuple[float, ...] = ()
 
 
 @frozen(eq=False)
@@ -287,11 +266,19 @@ class SeparationForce(SeparationEffect):
 
     column: ClassVar[Column]
     needs_film: ClassVar[bool] = True
+    newtonian: ClassVar[Column | None] = None
+    """Curve of the force without the limits of the liquid, which bound it; None: they do not."""
+    so_far: ClassVar[Column | None] = None
+    """Curve of its impulse up to each point of a run; None: that of the whole run alone. A force
+    with a `newtonian` one has it."""
+    touching: ClassVar[str] = ""
+    """Why it has no value on bodies that touch, at a gap of 0, with the cure; empty: it has one."""
 
     @classmethod
     def curves(cls) -> tuple[Column, ...]:
         """See `SeparationEffect.curves`."""
-        return (cls.column, *cls.late)
+        own = (cls.column, cls.newtonian, cls.so_far)
+        return (*(column for column in own if column is not None), *cls.late)
 
     def proportional_to(self, scene: SeparationScene) -> str:
         """Property of the liquid that the force is proportional to and depends on in no other way.

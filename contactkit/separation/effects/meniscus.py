@@ -118,7 +118,7 @@ class MeniscusForce(SeparationForce):
 
     def proportional_to(self, scene: SeparationScene) -> str:
         """See `SeparationForce.proportional_to`; at a fixed pressure it is not."""
-        return "surface_tension" if scene.liquid_pressure is None else ""
+        return "" if scene.meniscus.has_pressure else "surface_tension"
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
@@ -130,7 +130,7 @@ class MeniscusForce(SeparationForce):
         if given and not (self.takes_printed() and scene.interface.is_flat):
             named = " and ".join(f"{name}={getattr(self, name)!r}" for name in given)
             missing += (f'two flats and profile="as-published" for {named}, which Eq. (3.11) has',)
-        if scene.liquid_pressure is not None:
+        if scene.meniscus.has_pressure:
             return missing + self._lacks_at_pressure(scene)
         if not scene.interface.is_flat and meniscus.volume is None:
             missing += ("interface.meniscus.volume [m3]: a flooded sphere has no meniscus",)
@@ -166,7 +166,7 @@ class MeniscusForce(SeparationForce):
 
     def notes(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `SeparationEffect.notes`: what pulls where no amount of liquid is given."""
-        is_flooded = scene.meniscus.volume is None and scene.liquid_pressure is None
+        is_flooded = scene.meniscus.volume is None and not scene.meniscus.has_pressure
         if not is_flooded:
             return ()
         return (

@@ -115,7 +115,7 @@ def printed_law(
             return film.menisci * float(found)
 
         kinks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
-        return ForceLaw(upright, kinks)
+        return ForceLaw(upright, kinks, rate="none")
 
     def force(gap: float, circle: float) -> float:
         circle = _circle_on(pulled, prepared, gap, circle)
@@ -192,7 +192,7 @@ def _law(both: _Film, film: FilmShape, tension: float) -> ForceLaw:
         return n * tension * (both.pinned(gap) if gap < full_gap else both.free(gap))
 
     kinks = (full_gap,) if 0.0 < full_gap < end else ()
-    return ForceLaw(force, kinks, end)
+    return ForceLaw(force, kinks, end, rate="none")
 
 
 def _pinned_to(both: _Film, film: FilmShape) -> float:

@@ -70,7 +70,7 @@ class Rupture(FilmEnd):
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.liquid_needs`."""
-        at_pressure = self.gap is None and scene.liquid_pressure is not None
+        at_pressure = self.gap is None and scene.meniscus.has_pressure
         return ("surface_tension",) if at_pressure else ()
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
@@ -78,7 +78,7 @@ class Rupture(FilmEnd):
         meniscus = scene.meniscus
         if self.gap is not None or meniscus.volume is not None:
             return ()
-        if scene.liquid_pressure is not None and self.criterion == "limit":
+        if scene.meniscus.has_pressure and self.criterion == "limit":
             return ()
         return ("interface.meniscus.volume [m3] (or Rupture.gap [m])",)
 

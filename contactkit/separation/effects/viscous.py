@@ -20,10 +20,11 @@ from ...validators import choice, finite, optional, positive
 from ...validity import ValidityNumber
 from ..cavity.law import Cavitation, CavityLaw
 from ..face.shape import closed_form, shape_of
-from .base import CAVITY, FilmLimit, ForceLaw, ForcePart, Limiter, LimitKind, SeparationForce
+from .base import CAVITY, FilmLimit, ForcePart, Limiter, LimitKind, SeparationForce
 from .constant_force import constant_force_time
 from .film_shape import FilmShape, film_shape, needs_extent
 from .film_validity import film_numbers
+from .force_law import ForceLaw
 from .meniscus import MeniscusForce
 from .published_film import published_film
 
@@ -38,23 +39,10 @@ __all__ = [
     "ShearLimit",
     "TensionLimit",
     "ViscousForce",
-    "ViscousLaw",
     "ViscousPart",
     "keeps_radius",
     "viscous_film",
 ]
-
-
-@frozen(eq=False)
-class ViscousLaw(ForceLaw):
-    """Prepared viscous force law, proportional to speed.
-
-    It falls as gap^-n, with n the `exponent` at a gap; `impulse` is its time integral [N.s] between
-    two gaps, which no path in time changes.
-    """
-
-    exponent: Callable[[float], float] = field(kw_only=True)
-    impulse: Callable[[float, float], float] = field(kw_only=True)
 
 
 @frozen(eq=False)
@@ -161,6 +149,14 @@ class ViscousForce(SeparationForce):
     name: ClassVar[str] = "viscous-force"
     summary: ClassVar[str] = "viscous force of the film (Reynolds)"
     column: ClassVar[Column] = Column("viscous_force", "N", "viscous force", "#c1440e")
+    newtonian: ClassVar[Column] = Column(
+        "newtonian_force", "N", "viscous force without limits", "#c1440e", ":"
+    )
+    so_far: ClassVar[Column] = Column("viscous_impulse", "N.s", "viscous impulse so far", "#c1440e")
+    touching: ClassVar[str] = (
+        "the viscous impulse from a touching sphere is infinite, it grows as ln(1/gap); give a "
+        "cut-off gap [m], such as the roughness or 0.2 to 0.3 nm"
+    )
     takes_pressure: ClassVar[bool] = True
     published_choice: ClassVar[str] = "closure"
 
@@ -186,13 +182,6 @@ class ViscousForce(SeparationForce):
             return (f"Reynolds 1886: {by}",)
         return (flats,) if scene.interface.is_flat else (sphere,)
 
-    @classmethod
-    def curves(cls) -> tuple[Column, ...]:
-        """See `SeparationEffect.curves`."""
-        newtonian = Column("newtonian_force", "N", "viscous force without limits", "#c1440e", ":")
-        so_far = Column("viscous_impulse", "N.s", "viscous impulse so far", "#c1440e")
-        return (cls.column, newtonian, so_far)
-
     @property
     def takes_solids(self) -> bool:
         """See `SeparationEffect.takes_solids`: they say whether the faces are stiff enough."""
@@ -200,7 +189,7 @@ class ViscousForce(SeparationForce):
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.liquid_needs`: a film of fixed pressure has a height as well."""
-        at_pressure = scene.liquid_pressure is not None
+        at_pressure = scene.meniscus.has_pressure
         return ("viscosity", "surface_tension") if at_pressure else ("viscosity",)
 
     def proportional_to(self, scene: SeparationScene) -> str:
@@ -212,14 +201,14 @@ class ViscousForce(SeparationForce):
         if not scene.interface.has_discs:
             return _needs_of_face(scene)
         missing: tuple[str, ...] = ()
-        if scene.liquid_pressure is not None and self.closure != "volume-conserving":
+        if scene.meniscus.has_pressure and self.closure != "volume-conserving":
             missing += (
                 f"interface.meniscus.volume [m3] with closure={self.closure!r}: at a fixed "
                 f'pressure the rim keeps its height (or closure="volume-conserving")',
             )
         return missing + needs_extent(scene)
 
-    def prepare(self, prepared: PreparedScene[SeparationScene]) -> ViscousLaw:
+    def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         """See `SeparationForce.prepare`."""
         return _law(prepared)
 
@@ -262,7 +251,7 @@ def _needs_of_face(scene: SeparationScene) -> tuple[str, ...]:
     needs = {
         "a flooded film, without interface.meniscus.volume or a pressure: the rim of one that "
         "draws in from a face that is no disc is not known": meniscus.volume is None
-        and scene.liquid_pressure is None,
+        and not meniscus.has_pressure,
         "interface.meniscus.count = 1: a face that is no disc is not shared out": meniscus.count
         == 1,
         "an even disc, of a given radius, for the equations as published": viscous is None
@@ -271,24 +260,24 @@ def _needs_of_face(scene: SeparationScene) -> tuple[str, ...]:
     return tuple(need for need, is_met in needs.items() if not is_met)
 
 
-def _face_law(film: FaceFilm, viscosity: float) -> ViscousLaw:
+def _face_law(film: FaceFilm, viscosity: float) -> ForceLaw:
     def force(gap: float, speed: float) -> float:
         return viscosity * film.coefficient(gap) * speed
 
     def impulse(start: float, end: float) -> float:
         return viscosity * film.impulse(start, end)
 
-    return ViscousLaw(force, exponent=film.exponent, impulse=impulse)
+    return ForceLaw(force, rate="proportional", exponent=film.exponent, impulse=impulse)
 
 
-def _law(prepared: PreparedScene[SeparationScene]) -> ViscousLaw:
+def _law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:
     face = prepared.face_film
     if face is not None:
         return _face_law(face, prepared.liquid.viscosity)
     return _law_of(viscous_film(prepared), prepared.liquid.viscosity)
 
 
-def _law_of(film: FilmShape, viscosity: float) -> ViscousLaw:
+def _law_of(film: FilmShape, viscosity: float) -> ForceLaw:
     kinks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
     if math.isinf(film.sphere_radius):
         return _disc_law(film, viscosity, kinks)
@@ -297,7 +286,7 @@ def _law_of(film: FilmShape, viscosity: float) -> ViscousLaw:
     return _sphere_law(film, viscosity, kinks)
 
 
-def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ViscousLaw:
+def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
     n, full = film.menisci, film.full_gap
     drop = film.volume if math.isfinite(full) else 0.0  # both forces are those at a gap of 1 m
     whole = n * float(squeeze.disc_force(film.rim if full else 0.0, 1.0, 1.0, viscosity))
@@ -318,10 +307,10 @@ def _disc_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> Vi
             return n * float(squeeze.disc_impulse_conserved(film.volume, start, end, viscosity))
         return impulse(start, full) + impulse(full, end)
 
-    return ViscousLaw(force, kinks, exponent=exponent, impulse=impulse)
+    return ForceLaw(force, kinks, rate="proportional", exponent=exponent, impulse=impulse)
 
 
-def _level_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ViscousLaw:
+def _level_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
     """Force of a film under a sphere whose rim keeps its height, until the sphere leaves it."""
     n, sphere, level, full = film.menisci, film.sphere_radius, film.level, film.full_gap
 
@@ -343,10 +332,10 @@ def _level_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> V
         # d ln c/d ln D of (1 - D/s)^2/D is 1 + 2 D/(s - D); it may not grow without bound.
         return 1.0 + 2.0 * gap / max(level - gap, 0.5 * gap)
 
-    return ViscousLaw(force, kinks, level, exponent=exponent, impulse=impulse)
+    return ForceLaw(force, kinks, level, rate="proportional", exponent=exponent, impulse=impulse)
 
 
-def _sphere_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ViscousLaw:
+def _sphere_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> ForceLaw:
     n, height, full, sphere = film.menisci, film.height, film.full_gap, film.sphere_radius
     flooded = math.isinf(film.volume)
 
@@ -370,7 +359,7 @@ def _sphere_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> 
         # d ln c/d ln D of (1 - D/H)^2/D, with H free: 1 + 2 D/H at constant volume.
         return 1.0 + 2.0 * gap / height(gap)
 
-    return ViscousLaw(force, kinks, exponent=exponent, impulse=impulse)
+    return ForceLaw(force, kinks, rate="proportional", exponent=exponent, impulse=impulse)
 
 
 @frozen(kw_only=True)
@@ -598,7 +587,8 @@ def viscous_film(prepared: PreparedScene[SeparationScene]) -> FilmShape:
         return published_film(prepared)
     if not keeps_radius(scene):
         return prepared.film
-    return film_shape(scene, prepared.liquid, constant_radius=True)
+    pressure = prepared.liquid_pressure
+    return film_shape(scene, prepared.liquid, pressure, constant_radius=True)
 
 
 def _erratum(plan: PlanView) -> PublishedValue:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from attrs import field, frozen
 
-from ...lubrication.reynolds.film import Film, FilmState
+from ...lubrication.reynolds.film import GridFilm, GridFilmState
 from ...lubrication.reynolds.solve import unchecked_step
 from ..cavity.events import is_torn_by
 from ..cavity.law import Place
@@ -25,7 +25,7 @@ from ..cavity.state import FULL, Cavity, Phase
 from ..integrator.tableau import NODES
 from .film import FaceFilm
 from .grid import FaceGrid
-from .held_voids import FirstOpening, HeldVoids
+from .held_voids import FirstOpening, HeldVoids, Nearby
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -50,7 +50,7 @@ class _Known(NamedTuple):
     dt: float
     gaps: tuple[float, ...]
     voids: tuple[HeldVoids, ...]
-    last: FilmState
+    last: GridFilmState
     error: float
 
     def serves(self, cavity: Cavity, start: float, dt: float, gaps: tuple[float, ...]) -> bool:
@@ -65,7 +65,7 @@ class _Known(NamedTuple):
 class FaceStages(NamedTuple):
     """Liquid at the stages of a step, the forces there, and the error of the last void [-]."""
 
-    state: FilmState
+    state: GridFilmState
     """Film at the end of the step."""
     forces: tuple[CavityForce, CavityForce, CavityForce]
     error: float
@@ -97,14 +97,15 @@ class FaceCavity:
     strength: float
     drop: float
     film_rtol: float
-    _liquid: Film = field(init=False, repr=False)
+    _liquid: GridFilm = field(init=False, repr=False)
 
     _opening: FirstOpening | None = field(init=False, repr=False)
     _last: list[_Known] = field(init=False, factory=list, repr=False)
+    _nearby: Nearby = field(init=False, factory=Nearby, repr=False)
 
     @_liquid.default
-    def _find_liquid(self) -> Film:
-        return Film(face=self.grid.face, viscosity=self.viscosity, cavity_pressure=-self.drop)
+    def _find_liquid(self) -> GridFilm:
+        return GridFilm(face=self.grid.face, viscosity=self.viscosity, drop=self.drop)
 
     @_opening.default
     def _find_opening(self) -> FirstOpening | None:
@@ -156,11 +157,13 @@ class FaceCavity:
         error = self._as_of_the_method(missed)
         return _Known(cavity, start, dt, gaps, tuple(voids), state, error)
 
-    def _after(self, state: FilmState, start: float, end: float, dt: float) -> FilmState:
+    def _after(self, state: GridFilmState, start: float, end: float, dt: float) -> GridFilmState:
         """Film after a step from one gap [m] to another in a time [s]."""
         guess = state.liquid_fraction >= 1.0
         if self._opening is not None:
             guess &= self._opening.full_at(end, (end - start) / dt)
+        elif self._nearby.full is not None and end > start:
+            guess &= self._nearby.full
         return unchecked_step(state, self.grid.relief + end, dt, full=guess)
 
     def _as_of_the_method(self, missed: float) -> float:
@@ -208,10 +211,10 @@ class FaceCavity:
         found = self._voids(np.array(cavity.liquid), gap)(gap, speed)
         return ShownCavity(found.force, math.sqrt(found.cavity_area / math.pi), cavity.void)
 
-    def _state(self, liquid: Map, gap: float) -> FilmState:
+    def _state(self, liquid: Map, gap: float) -> GridFilmState:
         """Film of a thickness of its liquid [m] at a gap [m]."""
         face, height = self.grid.face, self.grid.relief + gap
-        return FilmState(
+        return GridFilmState(
             film=self._liquid,
             gap=height,
             pressure=np.zeros(face.shape),
@@ -223,7 +226,7 @@ class FaceCavity:
         """Film whose voids are those of a thickness of its liquid [m] at a gap [m]."""
         height = self.grid.relief + gap
         full = (liquid >= height * (1.0 - 1e-12)) | ~self.grid.face.loaded
-        return HeldVoids(self.grid, self._liquid, full, self._opening)
+        return HeldVoids(self.grid, self._liquid, full, self._opening, self._nearby)
 
     def _volume(self, gap: float) -> float:
         """Volume of the gap [m3]."""

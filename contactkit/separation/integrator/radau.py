@@ -70,8 +70,9 @@ class Point(NamedTuple):
 class Forces(NamedTuple):
     """Forces that resist opening at a gap and a speed [N], and their slopes [N/m], [N.s/m].
 
-    `static` does not depend on the speed. The viscous force is proportional to the speed where
-    `limit` is None; otherwise `limit` names the law that bounds it, by any object.
+    `static` is what they are at rest, `viscous` what the speed adds. That is known to be
+    proportional to the speed where `limit` is None; otherwise `limit` names the law that bounds it,
+    or says that none does, by any object.
     """
 
     static: float
@@ -101,8 +102,8 @@ class Problem(NamedTuple):
     stiffness: float  # of a spring [N/m]
     slack_gap: float  # at which the spring is slack [m]
     forces: Callable[[float, float], Forces]  # at a gap [m] and a speed [m/s]
-    has_limits: bool  # whether a limit of the liquid may set in, where slopes jump
-    exponent: float  # n of the viscous force, which falls as gap^-n
+    has_limits: bool  # whether slopes may jump with the speed, as where a limit sets in
+    exponent: float  # n of the damping, which falls as gap^-n
     begin: Point
     first: Forces  # at the start
     rtol: float
@@ -111,7 +112,7 @@ class Problem(NamedTuple):
     scale: float  # speed at which the film balances the other forces [m/s]
     # Forces with a memory: of a length [s], and gap [m] and speed [m/s] at each stage.
     remembered: Callable[[float, Sequence[tuple[float, float]]], Memory | None] | None = None
-    taken: float = math.inf  # impulse that the film took so far [N.s]; infinite: not to be known
+    taken: float = math.inf  # viscous impulse so far [N.s]; infinite: not to be known
 
     def net(self, pull: float, gap: float, forces: Forces) -> float:
         """Net force on the mass [N]."""

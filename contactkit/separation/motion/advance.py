@@ -14,7 +14,6 @@ from ...numerics.events import EventStep, step_to_event
 from ...numerics.roots import first_true
 from ...numerics.step_size import StepSize
 from ..cavity.state import FULL, Phase
-from ..effects.viscous import ViscousForce
 from ..integrator.dense_output import peak, work
 from ..integrator.radau import (
     Forces,
@@ -45,7 +44,6 @@ _TORN_COST = 20  # of a step of a torn film, over that of a whole one
 _NO_TIME = 1e-280
 _MOST_REJECTED = 300
 _TOO_LONG = 16.0  # error of a step that is to be cut in half
-_VISCOUS = ViscousForce.column.impulse.name
 
 
 def advance(plan: Plan, state: MotionState, pull: PullLaw, dt: float) -> MotionState:
@@ -151,8 +149,8 @@ def _rest(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionSt
     else:
         leaves = False
     elapsed = end - state.time
-    names = film.static_impulses if film is not None else ()
-    grown = {name: elapsed * force for name, force in zip(names, forces.values(), strict=True)}
+    columns = film.static_columns if film is not None else ()
+    grown = {column.impulse.name: elapsed * forces[column.name] for column in columns}
     return state._replace(
         time=end,
         in_contact=not leaves,
@@ -174,18 +172,19 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
     forces = film.forces if film is not None else _no_forces
     forces = forces if torn is None else torn.forces
     first = forces(gap, speed)
-    damping = film.damping(gap) if film is not None else 0.0
     spring = loading.stiffness * abs(gap - loading.initial_gap)
     size = abs(pull(state.time)) + abs(first.static) + spring + 1e-300
     crossing = gap / (state.step or 1e-6)
+    reference = max(abs(speed), crossing)  # of a damping that follows the speed
+    damping = film.damping(gap, reference) if film is not None else 0.0
     return Problem(
         mass=mass,
         pull=pull,
         stiffness=loading.stiffness,
         slack_gap=loading.initial_gap,
         forces=forces,
-        has_limits=film is not None and film.is_limited,
-        exponent=film.exponent(gap) if film is not None else 0.0,
+        has_limits=film is not None and not film.is_smooth,
+        exponent=film.exponent(gap, reference) if film is not None else 0.0,
         begin=Point(state.time, gap, speed),
         first=first,
         rtol=rtol if torn is None else torn.law.time_rtol(rtol),
@@ -194,7 +193,9 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
         # Where no force acts yet, a film still has a scale: differences of speed count.
         scale=max(size / damping, 1e-15 * crossing) if damping > 0.0 else crossing,
         remembered=torn.remembered if torn is not None else None,
-        taken=abs(state.impulses.get(_VISCOUS, 0.0)),
+        taken=sum(
+            abs(state.impulses.get(column.impulse.name, 0.0)) for column in plan.film.moving_columns
+        ),
     )
 
 
@@ -207,7 +208,7 @@ def _mass(plan: Plan) -> float:
     loading = plan.scene.imposed_force
     if loading.mass is not None:
         return loading.mass
-    given = plan.film.newtonian_impulse(loading.initial_gap, loading.final_gap)
+    given = plan.film.viscous_impulse(loading.initial_gap, loading.final_gap)
     pull = max(abs(loading.force), 1e-300)
     return 1e-14 * given * (given / pull) / (loading.final_gap - loading.initial_gap)
 
@@ -350,18 +351,10 @@ def _impulses(film: Film | None, taken: Step, length: float) -> dict[str, float]
     if film is None:
         return {}
     b1, b2, b3 = (length * weight for weight in WEIGHTS)
-    f1, f2, f3 = taken.forces
-    grown = {}
-    if film.has_viscous:
-        grown[_VISCOUS] = b1 * f1.viscous + b2 * f2.viscous + b3 * f3.viscous
-    if len(film.static_impulses) == 1:  # as known at the stages; several are evaluated each
-        (name,) = film.static_impulses
-        grown[name] = b1 * f1.static + b2 * f2.static + b3 * f3.static
-        return grown
-    stages = (film.static_forces(point.gap).values() for point in taken.stages)
-    for name, one, two, three in zip(film.static_impulses, *stages, strict=True):
-        grown[name] = b1 * one + b2 * two + b3 * three
-    return grown
+    pairs = zip(taken.stages, taken.forces, strict=True)
+    stages = (film.split(point.gap, point.speed, forces) for point, forces in pairs)
+    each = zip(film.impulse_names, *stages, strict=True)
+    return {name: b1 * one + b2 * two + b3 * three for name, one, two, three in each}
 
 
 def _work(problem: Problem, taken: Step) -> float:

@@ -37,11 +37,18 @@ class CavityFilm:
 
     def forces(self, gap: float, speed: float) -> Forces:
         """Forces near the start, with an edge and a rim that stay."""
-        return self._forces(gap, self._held(gap, speed))
+        return self._forces((gap, speed), self._held(gap, speed))
 
-    def _forces(self, gap: float, held: CavityForce) -> Forces:
-        static, by_gap = self.film.static_slope(gap)
-        return Forces(static, by_gap, held.force, held.by_gap, held.by_speed, LimitKind.TENSION)
+    def _forces(self, place: _ONE, held: CavityForce) -> Forces:
+        static, static_by_gap, viscous, by_gap, by_speed = self.film.unbounded(*place)
+        return Forces(
+            static,
+            static_by_gap,
+            viscous + held.force,
+            by_gap + held.by_gap,
+            by_speed + held.by_speed,
+            LimitKind.TENSION,
+        )
 
     def remembered(self, dt: float, places: Sequence[_ONE]) -> Memory | None:
         """Forces at the stages of a step, with the voids that belong to them."""
@@ -49,7 +56,7 @@ class CavityFilm:
         if solved is None:
             return None
         one, two, three = (
-            self._forces(gap, held) for (gap, _), held in zip(places, solved.forces, strict=True)
+            self._forces(place, held) for place, held in zip(places, solved.forces, strict=True)
         )
         return Memory((one, two, three), solved.error, solved)
 

@@ -76,7 +76,9 @@ class MotionState(NamedTuple):
 class Outputs(NamedTuple):
     """Forces [N] at a state, positive where they resist opening.
 
-    `static` is the sum of those that do not depend on speed: the meniscus, and the solids.
+    `static` is their sum at rest: the meniscus, and the solids; `viscous` what the speed adds.
+    `named` has each by the name of its column, and `newtonian` those of a flowing liquid without
+    its limits.
     """
 
     film: float
@@ -86,6 +88,8 @@ class Outputs(NamedTuple):
     limit: LimitKind
     cavity_radius: float = 0.0  # of each film [m]
     void: float = 0.0  # volume without liquid within the films [m3]
+    named: Mapping[str, float] = {}  # never changed in place
+    newtonian: Mapping[str, float] = {}  # nor is this
 
 
 _NOTHING = Outputs(0.0, 0.0, 0.0, FilmStatus.BROKEN, LimitKind.NONE)
@@ -121,11 +125,10 @@ def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
     if film is None:
         return _NOTHING
     gap, speed = state.gap, state.speed
-    static, (viscous, limit) = film.static_force(gap), film.viscous_force(gap, speed)
-    radius = void = 0.0
+    held, radius, void = None, 0.0, 0.0
     if film.cavity is not None and state.cavity.phase is not Phase.FULL:
-        shown = film.cavity.shown(state.cavity, gap, speed)
-        viscous, radius, void, limit = *shown, LimitKind.TENSION
+        held, radius, void = film.cavity.shown(state.cavity, gap, speed)
+    named, static, viscous, newtonian, limit = film.at(gap, speed, held)
     net = pull - loading.stiffness * (gap - loading.initial_gap) - static
     if speed <= 0.0 < pull and net <= 0.0:
         status = FilmStatus.STUCK
@@ -135,4 +138,4 @@ def outputs(plan: Plan, state: MotionState, pull: float) -> Outputs:
         status = FilmStatus.BROKEN
     else:
         status = FilmStatus.FULL if gap <= film.full_gap else FilmStatus.BRIDGE
-    return Outputs(static + viscous, static, viscous, status, limit, radius, void)
+    return Outputs(static + viscous, static, viscous, status, limit, radius, void, named, newtonian)

@@ -124,6 +124,7 @@ def plan_sliding(scene: SlidingScene, accuracy: Accuracy | None = None) -> Slidi
     prepared = prepare_scene(scene, accuracy, liquid)
     forces = [effect for effect in scene.effects if isinstance(effect, SlidingForce)]
     laws = {type(effect): effect.prepare(prepared) for effect in forces}
+    _check_path(scene, laws)
     own = {column.name: column for effect in forces for column in effect.curves()}
     return SlidingPlan(prepared, MappingProxyType(laws), MappingProxyType({**COLUMNS, **own}))
 
@@ -140,7 +141,7 @@ def _check_effects(scene: SlidingScene, liquid: LiquidState) -> None:
         for effect in scene.effects
         if type(effect) not in _KNOWN
     ]
-    if scene.liquid_pressure is not None:
+    if scene.meniscus.has_pressure:
         problems.append(
             "a sliding scene needs interface.meniscus.volume [m3] in place of its pressure"
         )
@@ -157,6 +158,19 @@ def _check_effects(scene: SlidingScene, liquid: LiquidState) -> None:
         )
     if problems:
         raise PlanError("; ".join(problems))
+
+
+def _check_path(scene: SlidingScene, laws: Mapping[type[SlidingForce], SlideLaw]) -> None:
+    """Refuse a force of which nothing is known where only the time is given."""
+    if scene.loading.speed is not None:
+        return
+    for kind, law in laws.items():
+        if law.impulse is None and law.work is None:
+            raise PlanError(
+                f"{kind.__name__} needs loading.speed [m/s]: with only the time given its force is "
+                "not known, unless its SlideLaw gives the impulse of one that is proportional to "
+                "speed, or the work of one that does not depend on it"
+            )
 
 
 def _check_gap(scene: SlidingScene) -> None:

@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import measure_work_precision
 import numpy as np
 from attrs import evolve
 
 import contactkit as ck
 from contactkit.app.scenes import open_scene
+from contactkit.benchmarks import table
 from contactkit.benchmarks.separation import monolithic_release, separation_sweep
 from contactkit.capillary.arc.bridge import arc_bridge
 from contactkit.capillary.exact.bridge import bridge
@@ -173,22 +173,14 @@ def _mirror() -> list[Point]:
     return _swept(mirror_sweep(scene, _quiet, clock=time.process_time))
 
 
-def _panel(name: str) -> Callable[[], list[Point]]:
-    """Points of a panel of `measure_work_precision.py`, whose cost is convolutions."""
+def _of_table(name: str) -> Study:
+    """A study of the table of contactkit, whose cost is convolutions."""
+    study = table.STUDIES[name]
 
     def points() -> list[Point]:
-        panel = measure_work_precision.PANELS[name]
-        made = []
-        for line, some in panel.lines().items():
-            for p in some:
-                setting, work = p.setting, int(p.work)
-                if panel.work != "convolutions":  # over the grid, with convolutions as labels
-                    setting, work = f"{work} pixels across", int(p.setting.split()[0])
-                counted = {"convolutions": work}
-                made.append(_point(line, setting, p.error, None, **counted))
-        return made
+        return [_point(p.method, p.label, p.error, None, **p.counts) for p in study.points()]
 
-    return points
+    return Study(study.title, study.judge, study.solvers, points)
 
 
 STUDIES: Mapping[str, Study] = {
@@ -228,42 +220,7 @@ STUDIES: Mapping[str, Study] = {
         ("micromirror",),
         _mirror,
     ),
-    "slip": Study(
-        "Partial slip of a sphere: displacement at 0.6 of full sliding",
-        "Mindlin; over the tolerance against 1e-12",
-        ("partial-slip",),
-        _panel("slip"),
-    ),
-    "coupled": Study(
-        "Coupled slip of a pressed sphere, over the steps of pressing",
-        "64 steps",
-        ("partial-slip",),
-        _panel("coupled"),
-    ),
-    "adhesion": Study(
-        "Pull-off force of a sphere, over the grid",
-        "Maugis and Dugdale",
-        ("pull_off_curve", "adhesion"),
-        _panel("adhesion"),
-    ),
-    "history": Study(
-        "Plastic load cycle of a sphere, over its steps",
-        "balance of work and energy; the loss in one step",
-        ("plastic-history", "hardness-limit"),
-        _panel("history"),
-    ),
-    "curve": Study(
-        "Load curve of twenty loads of a rough map",
-        "the same at 1e-10",
-        ("load_curve", "study"),
-        _panel("curve"),
-    ),
-    "lines": Study(
-        "Line contact, and a sphere on a sheet: maximum pressure over the grid",
-        "Hertz; 384 x 384 pixels",
-        ("press",),
-        _panel("lines"),
-    ),
+    **{name: _of_table(name) for name in table.STUDIES},
 }
 
 

@@ -53,7 +53,7 @@ def compute(draft: bool = False) -> dict[str, Any]:  # a draft is as large
             for law in LAWS:
                 found = _divided(height, pair, counts, law)
                 rows = np.full((2, len(counts)), np.nan)
-                rows[:, : len(found.counts)] = found.meniscus_force, found.viscous_force
+                rows[:, : len(found.n_menisci)] = found.meniscus_force, found.viscous_force
                 data[f"{law}_{key(pair)}_{i}"] = rows
                 numbers.append([found.best_count, found.max_stable_count])
         data[f"numbers_{key(pair)}"] = np.array(numbers).reshape(len(HEIGHTS), 2, 2)

@@ -106,7 +106,7 @@ def compute(draft: bool = False) -> dict[str, Any]:
 
 def _drop(slider: ck.SpringSlider, speed: float) -> float:
     """Fall of the spring's force in a slip at another speed [N]; 0 if it slides steadily."""
-    events = ck.stick_slip(attrs.evolve(slider, speed=speed), slips=1).events
+    events = ck.stick_slip(attrs.evolve(slider, speed=speed), n_slips=1).events
     return events[0].force_before - events[0].force_after if events else 0.0
 
 

@@ -1,5 +1,6 @@
 """The C kernel of native FMUs.
 
 cavities  The cavity of a film between flats in C: its memory, edge, force, events and paths.
+fmi       The functions of FMI 2 and 3 in C, and the host they are called by.
 tips      The tips of ``tip-contact`` in C: their motion, flight and impacts.
 """

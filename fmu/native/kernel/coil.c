@@ -1,4 +1,4 @@
-/* Flux, current and force of the coil: as contactkit/models/coil.py, operation by operation. The
+/* Flux, current and force of the coil: as models/injector/coil.py, operation by operation. The
    lengths of the steps hang on rounding where they are as long as they can be, so the same bits in
    mean the same bits out, and anything else the tolerance. */
 
@@ -7,9 +7,9 @@
 #include <float.h>
 #include <math.h>
 
-#define MOST_STEPS 100000 /* for one voltage */
-#define RTOL 1e-11        /* of the flux */
-#define KNEE 8.0          /* how sharply the iron saturates */
+#define MOST_STEPS 100000 /* for one voltage: then the motion given is no motion */
+#define RTOL 1e-11        /* of the flux: far below what an extrapolated gap is worth */
+#define KNEE 8.0          /* how sharply the iron saturates: see models/injector/coil.py */
 
 /* As Python's max(value, 0.0): nan stays, for others to find. */
 static double at_least_zero(double value) { return 0.0 > value ? 0.0 : value; }
@@ -46,7 +46,9 @@ static double rate(const problem *p, double flux, double gap) {
     return p->voltage - p->fall * flux * (air + iron);
 }
 
-/* One classical Runge-Kutta step from a time since the start. */
+/* One classical Runge-Kutta step from a time since the start. Explicit: the time constant of the coil
+   is that of the current that is wanted, so that nothing here is stiff. The error is that of two
+   halves against the whole, and is taken out (order 5). */
 static double runge_kutta(const problem *p, double flux, double time, double step) {
     double gap = p->gap + p->speed * time, half = 0.5 * step, middle = gap + 0.5 * p->speed * step;
     double k1 = rate(p, flux, gap), k2 = rate(p, flux + half * k1, middle);

@@ -17,7 +17,7 @@
 #include <windows.h>
 #endif
 
-#define MOST_NUMBERS 20000000u
+#define MOST_NUMBERS 20000000u /* 160 MB; tables in use have some 10 000 numbers */
 
 /* FNV-1a, 64 bits. */
 uint64_t ck_checksum(const void *bytes, size_t count) {
@@ -40,7 +40,7 @@ int ck_read_whole(ck_reader *r, int low, int high) {
     return r->fine ? (int)value : low;
 }
 
-int ck_read_nodes(ck_reader *r) { return ck_read_whole(r, 2, 1000000); }
+int ck_read_nodes(ck_reader *r) { return ck_read_whole(r, 2, CK_MOST_NODES); }
 
 const double *ck_read_column(ck_reader *r, int count, int ascends) {
     const double *first = r->next;
@@ -55,6 +55,8 @@ const double *ck_read_column(ck_reader *r, int count, int ascends) {
     return first;
 }
 
+/* Made once, when the file is read: an evaluation is then one polynomial of a cell in cache lines next to
+   each other, not six numbers of two nodes in four columns. */
 /* Powers of the fraction t of the distance from one node to the next; b, c slope and curvature times
    width and its square. */
 static void fill(ck_cell *cell, double x0, double x1, const double y[2], const double slope[2],

@@ -11,7 +11,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#define STEP 1e-5 /* of a value, by which it is moved */
+/* Of a value, by which it is moved: of a central difference the cube root of round-off, where what the
+   third derivative leaves (1e-10) and what cancels (1e-11) are alike. */
+#define STEP 1e-5
 
 static int refuse(ck_model *model, int unknown, int known, const char *why) {
     char message[300];

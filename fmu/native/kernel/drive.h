@@ -1,6 +1,6 @@
 /* What a drive is made of: coil (coil.c), voltage over time, rough faces (faces.c).
 
-   Conventions and laws are those of contactkit/models/valve.py: SI units; the gap grows as the
+   Conventions and laws are those of models/injector/valve.py: SI units; the gap grows as the
    valve opens. */
 
 #ifndef CK_DRIVE_H

@@ -1,12 +1,12 @@
 /* Rough faces of an end stop, and the spring behind them: as contactkit/analyses/load_displacement/curve.py and
-   stop_impact.py, from tables of nodes, values and slopes (fmu/native/faces.py). */
+   impact.py, from tables of nodes, values and slopes (fmu/native/faces.py). */
 
 #include "drive.h"
 
 #include <math.h>
 
-#define ROUNDS 100
-#define CLOSE 1e-13
+#define ROUNDS 100 /* as many bisections reach round-off from any bracket; Newton takes some five */
+#define CLOSE 1e-13 /* of the approach: digits that a curve through tabulated values has */
 #define SAME 1e-12 /* approaches closer than this, relatively, are one */
 
 /* Piece in which a number lies, between the first and the last node. */

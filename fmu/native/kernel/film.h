@@ -31,6 +31,7 @@ typedef struct {
     double fixed, fixed_by_gap;
     double viscous, viscous_by_gap, viscous_by_speed;
     double resistance, resistance_by_gap; /* viscous force per speed without limits */
+    double free, free_by_gap;             /* the part of that which no limit bounds */
     int limit;                            /* CK_LIMIT_KIND_... */
     int padding;                          /* so that no byte of a saved state is left open */
 } ck_forces;
@@ -42,7 +43,7 @@ typedef struct {
 
 /* Impulses of the motion between two gaps. */
 typedef struct {
-    double viscous, fixed;
+    double viscous, fixed, free; /* `free` is in the viscous one, too */
 } ck_impulse;
 
 double ck_table_at(const ck_table *table, double gap, double log_gap, double *by_gap);

@@ -9,10 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SAME 1e-9  /* gaps closer than this, relatively, are one */
-#define DOUBT 0.2  /* coupling error beyond which the flag is raised */
+#define SAME 1e-9  /* gaps closer than this, relatively, are one: a host rounds its gaps, too */
+#define DOUBT 0.2  /* coupling error beyond which the flag is raised: the answer is no estimate then */
 #define VOID 1e-9  /* error of the void in a step of time, over the volume of the film */
-#define MOST_STOPS 1000
+#define MOST_STOPS 1000 /* kinks and limits met in one step of the host; a film has some ten */
 #define MOST_STEPS 5000 /* of a cavity, in one step of the host: 20 to 40 us each where values are hostile */
 
 
@@ -171,6 +171,14 @@ static void apply_event(ck_model *model, double gap, int rising, double time) {
     else if (!rising && gap <= model->scene.recontact * (1.0 + SAME)) memory->detached = 0;
 }
 
+/* Whether a force acts that depends on the speed and that no limit of the liquid bounds. */
+static int free_of(const ck_acting *acting) {
+    int i;
+    for (i = 0; i < acting->film->n_laws; i++)
+        if (acting->acts[i] && acting->film->laws[i].rate == CK_RATE_PER_SPEED) return 1;
+    return 0;
+}
+
 /* Go along a stretch with a film that remembers its cavity: its viscous impulse, and the time of the
    stretch at which it tore or was whole again last. nan if there is no way, or it is too long: `left`
    are the steps that it may take. */
@@ -185,9 +193,11 @@ static double with_memory(ck_model *model, const ck_acting *acting, double from,
     ck_path_begin(&path, acting->law, cavity, at, length, VOID, 0.0);
     while ((*left)-- > 0 && (found = ck_path_next(&path, &part, &full)) == CK_PATH_STEP) {
         double after = path.time == length ? to : path.first + path.speed * path.time;
-        total += full && after != gap
-                     ? ck_along(acting, gap, after, (after - gap) / path.speed).viscous
-                     : part;
+        if (after != gap && (full || free_of(acting))) {
+            ck_impulse along = ck_along(acting, gap, after, (after - gap) / path.speed);
+            part = full ? along.viscous : part + along.free;
+        }
+        total += part;
         if (was != (cavity->phase == CK_WHOLE)) was = !was, *changed = path.time;
         gap = after;
     }
@@ -201,7 +211,7 @@ static ck_impulse go(ck_model *model, double time, double step, double target, i
     ck_memory *memory = &model->state.memory;
     double begin = memory->gap, gap = begin, pace = step / (target - begin);
     int rising = target > begin, i;
-    ck_impulse sum = {0.0, 0.0}, part;
+    ck_impulse sum = {0.0, 0.0, 0.0}, part;
     ck_acting acting;
     for (i = 0; i < MOST_STOPS; i++) {
         double above, below, next = target;
@@ -212,7 +222,7 @@ static ck_impulse go(ck_model *model, double time, double step, double target, i
             marks(model, &acting, memory->broken, gap, &above, &below);
             if (rising && above < target) next = above;
             if (!rising && below > target) next = below;
-            part = next == gap ? (ck_impulse){0.0, 0.0}
+            part = next == gap ? (ck_impulse){0.0, 0.0, 0.0}
                                : ck_along(&acting, gap, next, (next - gap) * pace);
         }
         if (acting.any && acting.law && (begin == target || next != gap)) {

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-#define ROUND_OFF 4e-16
+#define ROUND_OFF 4e-16 /* of a root: two units of the last place */
 #define CK_PI 3.14159265358979323846
 
 static void untouched(double force, ck_left *left) {

@@ -10,7 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CLOCK (16.0 * DBL_EPSILON) /* fraction of the time by which two clocks may differ */
+/* Fraction of the time by which two clocks may differ: master and model add up steps on their own, and
+   each sum is off by some units of round-off. */
+#define CLOCK (16.0 * DBL_EPSILON)
 #define REST 1e-9 /* fraction of a step up to which another is put off, as masters end with round-off */
 #define OFF 1e-6  /* fraction of a step by which it may start or end off its time */
 

@@ -5,13 +5,20 @@
 #include <math.h>
 #include <string.h>
 
-#define SHORT 1e-2 /* change of the coordinate up to which the quadrature of the method does */
-#define SAME 1e-11    /* two gaps closer than this, relatively, are one */
-#define NO_FORCE 1e-290 /* sum of the forces [N] below which none acts */
+/* Change of the coordinate up to which the work is summed by the quadrature of the method: its error
+   falls with the fifth power of the step; in a longer one the gap changes by percents and six Gauss
+   points on the cubics are the better rule. */
+#define SHORT 1e-2
+/* Two gaps closer than this, relatively, are one: a step that is cut at an event ends within 1e-13 of
+   it (`locate`), and the next one must not meet it again. */
+#define SAME 1e-11
+#define NO_FORCE 1e-290 /* sum of the forces [N] below which none acts; `pose` adds 1e-300 */
 #define FOOT 1e-6       /* sum of the forces over the pull to come, at the foot of a ramp */
-#define TURN 1e-11    /* what an event of a cavity may be missed by, over its scale */
-#define NO_TIME 1e-280    /* at time 0 the range of a float bounds a step, as in advance.py */
-#define MOST_REJECTED 300
+/* What an event of a cavity may be missed by, over its scale: far below rtol, and above what round-off
+   leaves of rates that vanish there. */
+#define TURN 1e-11
+#define NO_TIME 1e-280 /* at time 0 the range of a float bounds a step, as in advance.py */
+#define MOST_REJECTED 300 /* in a row: from 1 s to NO_TIME by tenths */
 #define NOTHING 1e-13 /* a gap [m] a thousand times smaller than an atom means nothing any more */
 
 static ck_place place_of(const ck_motion *state) { return (ck_place){state->gap, state->speed}; }
@@ -90,7 +97,7 @@ static void rest_once(const ck_scene *scene, ck_motion *state, const ck_pull *pu
     double holding = scene->stiffness * (state->gap - scene->initial_gap), film, low = state->time;
     double leave = end, elapsed;
     ck_act(scene, state->film, state->broken, state->detached, &acting);
-    /* Nothing tore at a smaller gap than this, so that no void is left here. */
+    /* Nothing ruptured at a smaller gap than this, so that no void is left here. */
     if (state->cavity.phase != CK_WHOLE) memset(&state->cavity, 0, sizeof state->cavity);
     film = ck_fixed_force(&acting, state->gap);
     if (ck_pull_at(pull, low) - holding - film > 0.0) {
@@ -133,6 +140,7 @@ static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion
     p->size = fabs(drive) + fabs(first->fixed) + fabs(spring) + 1e-300;
     p->delivered = state->applied_impulse + scene->mass * fabs(state->speed);
     crossing = state->gap / (state->step > 0.0 ? state->step : 1e-6);
+    /* Speed at which the film balances the other forces: what a creeping mass is measured against. */
     p->scale = first->resistance > 0.0 ? ck_larger(p->size / first->resistance, 1e-15 * crossing)
                                        : crossing;
     p->net = drive - spring - first->fixed - first->viscous;
@@ -226,7 +234,8 @@ static double next_event(const ck_scene *scene, const ck_acting *acting, const c
     return m.found;
 }
 
-/* Step that ends at a gap: Newton on its length, kept inside the bracket. */
+/* Step that ends at a gap: Newton on its length, whose slope is the speed at the end of the step and
+   costs nothing. The bracket holds it where the mass turns back inside the step. */
 static double locate(const ck_problem *p, double length, double event, ck_step *taken) {
     double low = 0.0, high = length;
     int rising = event > p->begin.gap, i;
@@ -245,7 +254,8 @@ static double locate(const ck_problem *p, double length, double event, ck_step *
     return length;
 }
 
-/* Coefficients of a + b x + c x^2 + d x^3 through the start and the stages. */
+/* Coefficients of a + b x + c x^2 + d x^3 through the start and the stages; the numbers are those of
+   the nodes (4 -+ sqrt 6)/10 and 1. */
 static void cubic(double first, const double stages[3], double found[4]) {
     double a = stages[0] - first, b = stages[1] - first, c = stages[2] - first;
     found[0] = first;
@@ -266,6 +276,7 @@ static double highest(double first, const double stages[3], double *where) {
     double f[4], value = first, lowest = first, inside, q, roots[2];
     int i;
     *where = 0.0;
+    /* A stiff film comes up to its force within m/c, far less than the step. */
     if (jumps(first, stages) && 2.0 * (stages[2] - first) > stages[0] - first) {
         *where = 1.0; /* it stays up; before that the stages are not accurate */
         return stages[2];
@@ -463,6 +474,7 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
         return CK_DONE;
     }
     pose(scene, &acting, state, pull, &p, &first);
+    /* At the foot of a ramp errors would be measured against a force that is still nothing. */
     coming = fabs(ck_pull_at(pull, end));
     if (p.size <= ck_larger(NO_FORCE, FOOT * coming)) expect(&p, &first, 0.5 * coming);
     asked = state->step > 0.0 ? state->step : first_step(&p, left);
@@ -473,6 +485,7 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
             error = judge(scene, state, pull, &p, first.limit, &taken, length);
         if (error <= 1.0) break;
         rejected++;
+        /* The error estimate is of order 3 (Hairer and Wanner, IV.8): it goes with dt^4. */
         length *= error < HUGE_VAL ? ck_larger(0.1, 0.9 * pow(error, -0.25)) : 0.25;
         if (!(length >= ck_larger(1e-15 * fabs(state->time), NO_TIME)) || rejected > MOST_REJECTED)
             return CK_NO_STEP;
@@ -480,6 +493,8 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     state->cost += p.cavity ? CK_TORN_COST * rejected : rejected;
     following = length * ck_smaller(8.0, 0.9 / sqrt(sqrt(ck_larger(error, 1e-12))));
     if (!rejected && length < state->step) following = ck_larger(following, state->step);
+    /* The step is taken first, as if there were no event, and cut afterwards: forces and error estimate
+       go on smoothly beyond it, as laws are carried on until the event is applied. */
     event = next_event(scene, &acting, state, taken.stages[2].gap);
     if (event >= 0.0) length = locate(&p, length, event, &taken);
     turn = cut_at_turn(&p, &taken, &length);
@@ -491,6 +506,7 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     }
     keep_cavity(&p, &taken, turn, state);
     accumulate(&p, &first, &taken, length, state);
+    /* After an event of the cavity its rates start anew: a first guess, not the step before it. */
     state->step = turn ? 0.0 : following;
     if (turn) state->known = 0;
     if (event >= 0.0) apply_event(scene, &acting, state, event), state->known = 0;

@@ -10,9 +10,11 @@
 #include <math.h>
 
 #define R6 2.449489742783178098197284
-#define MOST_ITERATIONS 12
-#define LINEAR 1e-4 /* relative change over which the slopes at the start are good enough */
-#define FAR 0.5     /* change of the coordinate over which they are no guess any more */
+#define MOST_ITERATIONS 12 /* two do where forces are smooth; where more than six, a shorter step */
+/* Relative change over which the slopes at the start are good enough: they leave its square, 1e-8 of a
+   force, in an estimate of an error. */
+#define LINEAR 1e-4
+#define FAR 0.5 /* change of the coordinate over which they are no guess any more */
 #define RISING 3.0  /* these five as in radau.py, where the reasons are */
 #define LEFT (0.1 / RISING)
 #define FAST 2.0
@@ -33,6 +35,10 @@ static const double BACK[3] = {(2.0 + 3.0 * R6) / 6.0, (2.0 - 3.0 * R6) / 6.0, 1
 static const double BACK_SLOPE[3] = {(8.0 - 13.0 * R6) / 6.0, (8.0 + 13.0 * R6) / 6.0, -8.0 / 3.0};
 static const double END_SLOPE[3] = {-2.0 + 7.0 * R6 / 6.0, -2.0 - 7.0 * R6 / 6.0, 4.0};
 
+/* The unknowns are the rates dq/dt of a coordinate q of the gap, not gaps. Where the film rules, q is
+   proportional to the viscous impulse, (1 - (h0/h)^s)/s with s = n - 1: the impulse is what pulls
+   determine, so that q goes on smoothly while the gap multiplies, and a gap cannot come out below
+   zero. Where inertia rules (s = -1), q is the gap over that at the start. */
 typedef struct {
     double q, first, swing; /* coordinate, slope of the gap by it, rate times its curvature */
     ck_point at;
@@ -61,7 +67,8 @@ int ck_coordinate(double gap, double s, double q, double found[3]) {
     return 1;
 }
 
-/* Exponent n of the viscous force, which falls as gap^-n. */
+/* Exponent n of the damping, which falls as gap^-n: 3 of flats, 5 of a film that narrows, 1 of a
+   sphere. More is taken for a kink that begins; the coordinate only has to be close. */
 double ck_film_exponent(double gap, const ck_forces *forces) {
     double found;
     if (!(forces->resistance > 0.0)) return 0.0;
@@ -76,16 +83,18 @@ static double net_of(const ck_problem *p, const ck_point *at, const ck_forces *f
            (forces->viscous + forces->fixed);
 }
 
-static void hold(const ck_held *held, ck_forces *found) {
-    found->viscous = held->force, found->viscous_by_gap = held->by_gap;
-    found->viscous_by_speed = held->by_speed, found->limit = CK_LIMIT_KIND_TENSION;
+/* A film with a cavity, in place of one that is whole; what no limit bounds stays. */
+static void hold(const ck_held *held, double speed, ck_forces *found) {
+    found->viscous = held->force + found->free * speed;
+    found->viscous_by_gap = held->by_gap + found->free_by_gap * speed;
+    found->viscous_by_speed = held->by_speed + found->free, found->limit = CK_LIMIT_KIND_TENSION;
 }
 
 void ck_forces_with(const ck_acting *acting, const ck_spot *spot, ck_place at, ck_forces *found) {
     ck_held held;
     ck_forces_at(acting, at.gap, at.speed, found);
     ck_held_at(acting->law, spot, at, &held);
-    hold(&held, found);
+    hold(&held, at.speed, found);
 }
 
 /* Void and forces at the stages of a film with a cavity; 0 if they are not found. */
@@ -94,7 +103,7 @@ static int with_cavity(const ck_problem *p, double dt, stage at[3], ck_hollow *h
     int i;
     for (i = 0; i < 3; i++) places[i].gap = at[i].at.gap, places[i].speed = at[i].at.speed;
     if (!ck_hollow_solve(p->acting->law, p->cavity, begin, dt, places, hollow)) return 0;
-    for (i = 0; i < 3; i++) hold(&hollow->held[i], &at[i].forces);
+    for (i = 0; i < 3; i++) hold(&hollow->held[i], at[i].at.speed, &at[i].forces);
     return 1;
 }
 
@@ -114,7 +123,8 @@ static void carry(ck_forces *f, const ck_point *from, const ck_point *to) {
     else f->viscous += f->viscous_by_gap * dh + f->viscous_by_speed * (to->speed - from->speed);
 }
 
-/* Solve a 3 by 3 system by Cramer's rule; 0 if it is singular. */
+/* Solve a 3 by 3 system by Cramer's rule; 0 if it is singular. What it loses to elimination with
+   pivots only slows down Newton's iteration, which ends by its residual. */
 static int solve3(double a[3][3], const double b[3], double x[3]) {
     double m0 = a[1][1] * a[2][2] - a[1][2] * a[2][1], m1 = a[1][2] * a[2][0] - a[1][0] * a[2][2];
     double m2 = a[1][0] * a[2][1] - a[1][1] * a[2][0];
@@ -305,6 +315,7 @@ static double guess(const ck_problem *p, double dt, double s, double floor, doub
 /* Try a step; in terms of the viscous impulse where the film rules, else of the gap. 0 if the
    stages cannot be solved and a smaller step is to be tried. */
 int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
+    /* The film rules if it takes the speed away within the step: dt > m/c. */
     int rules = -p->net_by_speed * dt > p->mass && p->exponent > 0.0, iteration, i;
     double s = rules ? p->exponent - 1.0 : -1.0, size, rates[3];
     double floor = p->scale / p->begin.gap < 1e-6 / dt ? p->scale / p->begin.gap : 1e-6 / dt;
@@ -335,6 +346,7 @@ int ck_attempt(const ck_problem *p, double dt, ck_step *taken) {
             if (!has_limits(p) && sure < 0.1) sure *= 10.0 * sure;
         }
         known = 1;
+        /* 0.03 of the tolerance: an error of the iteration must not show in that of the step. */
         met = sure * size <= 0.03 * p->rtol && is_small(p, dt, at, residual, p->rtol / sure);
         stalled = iteration > 1 && size < 1e-6 && size >= previous; /* at round-off */
         if (met || (stalled && is_small(p, dt, at, residual, 1e-7))) {

@@ -38,7 +38,7 @@ _NAMES: dict[Scheme, str] = {
     "impulse": "film by impulse, fixed step",
 }
 _STEPS = (50e-6, 20e-6, 10e-6, 5e-6, 2e-6, 1e-6)  # [s]
-_IMPULSE_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5)
+_IMPULSE_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5)  # a line of the table each
 
 
 def injector_cost(

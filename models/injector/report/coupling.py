@@ -51,6 +51,8 @@ Coupling = Literal[
 """How film and mass are put together."""
 
 SCHEMES: tuple[Coupling, ...] = get_args(Coupling)
+# Abscissae of the figure, half a decade apart: communication steps to the release with the film and
+# with the mass inside an FMU, and tolerances.
 _COUNTS = (3, 10, 30, 100, 300, 1000)
 _INSIDE = (1, 3, 10, 30, 100, 300)
 _TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)

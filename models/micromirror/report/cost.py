@@ -25,7 +25,7 @@ from .cosimulation import build_tips, couple_fmus
 __all__ = ["mirror_sweep"]
 
 _STEPS = (100e-9, 50e-9, 20e-9, 10e-9, 5e-9, 2e-9)  # [s]
-_TOLERANCES = (1e-4, 1e-6, 1e-8)
+_TOLERANCES = (1e-4, 1e-6, 1e-8)  # a line of the table each
 
 
 def mirror_sweep(

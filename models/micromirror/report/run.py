@@ -18,7 +18,7 @@ from ..coupling import HELD, SIGNALS
 from ..electrostatics import pull_in
 from ..release import Landing, Release, landing, release_curve
 from ..scene import MicromirrorScene
-from ..tip_film import tip_law
+from ..tip_film import condensate_validity, tip_law
 from .cosimulation import MirrorRun, cosimulate_flips, tip_start
 from .landing_sites import landing_numbers
 
@@ -229,13 +229,8 @@ def _validity(run: MirrorRun, found: Sequence[Release]) -> list[str]:
         ]
         if warnings:
             lines.append("validity, lift-off: " + ", ".join(warnings))
-    radii = [one.adhesion.kelvin_radius for one in found if one.adhesion.volume > 0.0]
-    if radii and min(radii) < 1e-9:
-        lines.append(
-            f"validity, condensate: Kelvin radius down to {min(radii) * 1e9:.2f} nm OUT OF RANGE: "
-            "below 1 nm, a few molecules, the tension of the bulk is some 20 % off"
-        )
-    return lines
+    held_by = condensate_validity(one.adhesion for one in found)
+    return [*lines, *(f"validity, condensate: {number}" for number in held_by)]
 
 
 def _scalars(scene: MicromirrorScene, one: Release) -> dict[str, tuple[Any, str]]:

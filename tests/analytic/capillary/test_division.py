@@ -74,7 +74,7 @@ def test_the_best_number_of_the_published_law(case):
 @pytest.mark.parametrize("law", ["exact", "arc", "as-published"])
 def test_no_number_is_better_than_the_best(law):
     found = divide_meniscus(scene(6e-9, 6e-21), range(1, 400), law=law)
-    assert found.best_count == found.counts[np.argmin(found.total_force)]
+    assert found.best_count == found.n_menisci[np.argmin(found.total_force)]
     assert found.best_force == found.total_force.min()
     assert found.total_force == pytest.approx(found.meniscus_force + found.viscous_force, rel=1e-14)
 
@@ -98,7 +98,7 @@ def test_each_meniscus_of_many_is_one_of_its_volume():
 
 def test_at_fixed_time_the_viscous_force_falls_as_one_over_the_number():
     found = divide_meniscus(scene(), [1, 10, 100, 1000], law="exact")
-    slope = np.polyfit(np.log(found.counts), np.log(found.viscous_force), 1)[0]
+    slope = np.polyfit(np.log(found.n_menisci), np.log(found.viscous_force), 1)[0]
     assert slope == pytest.approx(-1.0, abs=1e-3)
 
 
@@ -112,14 +112,16 @@ def test_at_fixed_speed_the_way_to_the_break_shortens_with_the_number():
 
 def test_a_right_angle_gives_the_exact_cylinder_for_any_number():
     found = divide_meniscus(scene(angle=90.0), [1, 100, 10_000], law="exact")
-    radius = np.sqrt(2e-21 / (found.counts * math.pi * 2e-9))
-    assert found.meniscus_force == pytest.approx(found.counts * math.pi * 0.072 * radius, rel=1e-9)
+    radius = np.sqrt(2e-21 / (found.n_menisci * math.pi * 2e-9))
+    assert found.meniscus_force == pytest.approx(
+        found.n_menisci * math.pi * 0.072 * radius, rel=1e-9
+    )
     assert found.contact_radius == pytest.approx(radius, rel=1e-9)
 
 
 def test_beyond_the_largest_stable_number_nothing_is_computed():
     found = divide_meniscus(scene(6e-9, 6e-21), [1, 79_611, 79_612, 100_000], law="exact")
-    assert (found.counts.tolist(), found.unstable) == ([1, 79_611], (79_612, 100_000))
+    assert (found.n_menisci.tolist(), found.unstable) == ([1, 79_611], (79_612, 100_000))
     assert np.all(np.isfinite(found.meniscus_force))
     assert found.limit_gap[1] > 6e-9
 
@@ -130,7 +132,7 @@ def test_overlap_is_seen_on_the_face():
     found = divide_meniscus(scene(angle=0.0, face=face), [1, 10, 10_000], law="exact")
     assert found.coverage[0] < found.coverage[1] < found.coverage[2]
     assert found.overlaps.tolist() == [False, False, True]
-    expected = menisci.coverage(found.counts, found.contact_radius, math.pi * face**2)
+    expected = menisci.coverage(found.n_menisci, found.contact_radius, math.pi * face**2)
     assert found.coverage == pytest.approx(expected, rel=1e-14)
     with pytest.raises(ck.NotSimulatedError, match=r"radius \[m\] of a Flat face"):
         divide_meniscus(scene(), [1], law="exact").coverage  # noqa: B018

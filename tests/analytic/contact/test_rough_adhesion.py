@@ -122,7 +122,7 @@ def jkr_like():
     levels = np.linspace(-1.2, 0.0, 6) * UNITS.approach
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ck.ValidityWarning)
-        return ck.pull_off_curve(sphere(2.0, 32, 4.0), levels, refinements=3)
+        return ck.pull_off_curve(sphere(2.0, 32, 4.0), levels, n_refinements=3)
 
 
 def test_a_curve_is_drawn_with_its_jumps(jkr_like):
@@ -147,7 +147,9 @@ def test_a_sphere_pulls_off_as_maugis_and_dugdale_have_it(jkr_like):
     assert found.is_closed
     lost = sum(jump.energy_lost for jump in found.jumps)
     assert lost == pytest.approx(found.loop_energy, rel=0.1)
-    total = float(found.approaching.loss.sum() + found.separating.loss.sum())
+    total = float(
+        found.approaching.dissipated_energy.sum() + found.separating.dissipated_energy.sum()
+    )
     assert total == pytest.approx(found.loop_energy, rel=1e-9)
 
 
@@ -228,7 +230,7 @@ def test_a_pulled_map_is_on_the_branch_of_a_separation(periodic, pull):
 def test_a_chain_of_approaches_is_the_path_of_a_curve():
     plan = rough(STICKY, n=24)
     levels = np.linspace(-3e-9, 0.0, 7)
-    path = ck.pull_off_curve(plan, levels, refinements=0)
+    path = ck.pull_off_curve(plan, levels, n_refinements=0)
     chain = ck.load_curve(plan, approaches=[*levels, *levels[-2::-1]])
     both = np.concatenate([path.approaching.load, path.separating.load[1:]])
     np.testing.assert_allclose(chain.load, both, rtol=1e-6)
@@ -240,8 +242,8 @@ def test_branches_of_an_isolated_map_do_not_depend_on_the_steps():
     law = ck.ExponentialAttraction(work_of_adhesion=WORK, range=3e-9)
     plan = rough(law, n=24, periodic=False)
     few = np.linspace(-1.2e-8, 2e-9, 7)
-    coarse = ck.pull_off_curve(plan, few, refinements=0)
-    fine = ck.pull_off_curve(plan, np.linspace(-1.2e-8, 2e-9, 13), refinements=0)
+    coarse = ck.pull_off_curve(plan, few, n_refinements=0)
+    fine = ck.pull_off_curve(plan, np.linspace(-1.2e-8, 2e-9, 13), n_refinements=0)
     for one, other in (
         (coarse.approaching, fine.approaching),
         (coarse.separating, fine.separating),

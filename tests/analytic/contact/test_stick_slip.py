@@ -21,7 +21,7 @@ BLOCK = {
 
 
 def test_a_mass_sticks_and_slips_as_its_closed_form():
-    motion = stick_slip(SpringSlider(**BLOCK, mass=0.01), slips=3)
+    motion = stick_slip(SpringSlider(**BLOCK, mass=0.01), n_slips=3)
     event = motion.events[2]
     assert motion.stick_time == pytest.approx(0.4, rel=1e-12)
     assert motion.slip_time == pytest.approx(0.010034579933712545, rel=1e-12)
@@ -35,7 +35,7 @@ def test_a_mass_sticks_and_slips_as_its_closed_form():
 @pytest.mark.parametrize("speed", [1e-3, 0.1], ids=["slow", "fast"])
 def test_the_slip_is_that_of_the_equation_of_motion(speed):
     block = SpringSlider(**{**BLOCK, "speed": speed}, mass=0.01, contact_stiffness=5e3)
-    motion = stick_slip(block, slips=2)
+    motion = stick_slip(block, n_slips=2)
     k, event = block.total_stiffness, motion.events[0]
     assert k == pytest.approx(1e3 * 5e3 / 6e3)
 
@@ -63,7 +63,7 @@ def test_without_inertia_the_period_is_half():
 
 def test_energy_is_conserved_over_a_period():
     """What the spring's end does is what friction dissipates."""
-    motion = stick_slip(SpringSlider(**BLOCK, mass=0.01), slips=4)
+    motion = stick_slip(SpringSlider(**BLOCK, mass=0.01), n_slips=4)
     first, last = motion.events[0].end, motion.events[1].end
     inside = (motion.time >= first) & (motion.time <= last)
     work = BLOCK["speed"] * np.trapezoid(motion.force[inside], motion.time[inside])
@@ -109,7 +109,7 @@ def test_a_slip_with_drag_is_that_of_the_equation_of_motion(damping, speed):
     block = SpringSlider(**{**BLOCK, "speed": speed}, mass=0.01, **wet)
     assert block.static_friction == pytest.approx(0.7)
     assert block.kinetic_friction == pytest.approx(0.33)
-    event = stick_slip(block, slips=2).events[1]
+    event = stick_slip(block, n_slips=2).events[1]
     assert event.force_before == pytest.approx(0.7, rel=1e-12)
     time, (place, along) = integrated(block, 0.7, 0.1)
     assert time[-1] == pytest.approx(event.end - event.start, rel=1e-6)
@@ -128,7 +128,7 @@ def test_a_little_drag_is_almost_none():
 
 def test_friction_and_drag_dissipate_what_the_spring_gives():
     block = SpringSlider(**BLOCK, mass=0.01, damping=1.0)
-    motion = stick_slip(block, slips=1)
+    motion = stick_slip(block, n_slips=1)
     _, (place, along) = integrated(block, 0.5, 0.1)
     work = 0.3 * place[-1] + np.trapezoid(along, place)
     assert motion.dissipated_work == pytest.approx(work, rel=1e-3)
@@ -169,8 +169,8 @@ def test_impossible_sliders_are_refused():
         SpringSlider(**{**BLOCK, "kinetic_coefficient": 0.6})
     with pytest.raises(ck.DescriptionError, match=r"at most meniscus_force = 0.1 N"):
         SpringSlider(**BLOCK, meniscus_force=0.1, moving_meniscus_force=0.2)
-    with pytest.raises(ck.DescriptionError, match=r"stick_slip\(slips\) must be a whole number"):
-        stick_slip(SpringSlider(**BLOCK), slips=0)
+    with pytest.raises(ck.DescriptionError, match=r"stick_slip\(n_slips\) must be a whole number"):
+        stick_slip(SpringSlider(**BLOCK), n_slips=0)
 
 
 def test_what_is_no_block_is_refused():

@@ -41,7 +41,7 @@ def quarter_disc(radius, cells, **more):
 
 def squeeze(face, gap=1e-5, rate=1e-3, **more):
     """A full film of the reference's oil."""
-    return reynolds.solve_pressure(reynolds.Film(face=face, viscosity=OIL), gap, rate, **more)
+    return reynolds.solve_pressure(reynolds.GridFilm(face=face, viscosity=OIL), gap, rate, **more)
 
 
 def journal(name, cells, across):

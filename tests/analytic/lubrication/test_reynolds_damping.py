@@ -186,7 +186,7 @@ def test_a_table_of_a_flat_is_a_power_law_everywhere():
 def test_onset_of_the_injector():
     """t_on of the reference: 10 bar at the centre, here as a speed at the first gap."""
     speed = reynolds.disc_damping(R).onset_speed(5e-6, 1e6, 0.1)
-    film = reynolds.Film(face=FACES["disc"], viscosity=0.1)
+    film = reynolds.GridFilm(face=FACES["disc"], viscosity=0.1)
     assert reynolds.solve_pressure(film, 5e-6, speed).pressure.min() == pytest.approx(
         -1e6, rel=1e-3
     )

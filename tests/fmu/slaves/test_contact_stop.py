@@ -42,7 +42,7 @@ def curve():
         loading=ck.Pressing(pressure=80e6),
         effects=(ck.HalfSpace(), ck.HardnessLimit(rule="material")),
     )
-    found = ck.load_displacement(scene, points=24, unloadings=8, accuracy=ck.Accuracy(grid=64))
+    found = ck.load_displacement(scene, points=24, n_unloadings=8, accuracy=ck.Accuracy(grid=64))
     return found.scaled(10e-6 / found.nominal_area)
 
 

@@ -6,10 +6,12 @@
 #include <math.h>
 
 #define CK_PI 3.14159265358979323846
-#define NARROW 0.03      /* width of the ring below which the closed form would cancel */
-#define SMALLEST 1e-14   /* fraction of the disc within an edge that is taken for a point */
-#define MOST_ITERATIONS 30
-#define ENOUGH 1e-15     /* change of the void, over the volume of the film */
+#define NARROW 0.03 /* width of the ring below which the closed form would cancel: see disc_cavity.py */
+/* Fraction of the disc within an edge that is taken for a point: the logarithm of the edge stays below
+   32, and the area left out is at round-off. */
+#define SMALLEST 1e-14
+#define MOST_ITERATIONS 30 /* Newton: four or five; more only next to a film that is full again */
+#define ENOUGH 1e-15       /* change of the void, over the volume of the film: round-off */
 
 static double larger(double a, double b) { return a > b ? a : b; }
 static double smaller(double a, double b) { return a < b ? a : b; }
@@ -126,6 +128,8 @@ void ck_held_at(const ck_cavity_law *law, const ck_spot *spot, ck_place at, ck_h
     held->by_speed = n * by_speed;
 }
 
+/* The void is the unknown, not the edge: it is an integral of the flow and smooth where the edge jumps
+   from one piece of the memory to the next. */
 /* Change of the voids that the equations of the stages ask for; 0 if there is none. */
 static int newton(double first, double dt, const double voids[3], const ck_spot spots[3],
                   double change[3]) {

@@ -7,14 +7,18 @@
 #include <string.h>
 
 #define CK_PI 3.14159265358979323846
-#define HEALED 1e-9   /* void over the film at which it counts as full */
+/* Void over the film at which it counts as full: the edge runs into the centre like a logarithm as the
+   void vanishes, which no step size follows to the end. Larger, and it is full too early. */
+#define HEALED 1e-9
 #define NOTHING 1e-8  /* the same of a cavity that never was deeper than SHALLOW */
 #define SAME 1e-12    /* squares of the edge that are closer, relatively, are one */
-#define SHALLOW 1e-6  /* depth of the void at the edge over the gap, where round-off moves the edge */
+/* Depth of the void at the edge over the gap. The edge is where the void left is that of the memory,
+   a quotient of two small differences: below this round-off moves it. */
+#define SHALLOW 1e-6
 #define RECEDES 1e-6  /* flow over the edge, over that into the film, which is more than rounding */
-#define MOST_TRIALS 60
-#define QUICK 0.01      /* fraction of a miss to which secants reduce it where they work */
-#define MOST_SECANTS 3  /* in a row that neither halve the bracket nor do that */
+#define MOST_TRIALS 60 /* these three as in numerics/events.py, where the reasons are */
+#define QUICK 0.01
+#define MOST_SECANTS 3
 
 int ck_is_torn_by(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at) {
     return cavity->phase == CK_WHOLE && ck_tension_at(law, at.gap, at.speed, 0.0) >= law->strength;

@@ -6,8 +6,10 @@
 #include <math.h>
 #include <stddef.h>
 
-#define FIRST 1e-3 /* of the way, the first step */
-#define EVENT 1e-10
+/* Of the travel, the first step. Just after its inception a cavity spreads as a root of time; too long a
+   step is rejected, too short ones grow eightfold. */
+#define FIRST 1e-3
+#define EVENT 1e-10 /* what an event may be missed by: less than the error of the void, `VOID` */
 
 typedef struct {
     const ck_path *path;

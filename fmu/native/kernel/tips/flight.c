@@ -1,5 +1,5 @@
 /* A free spring tip about a root that is steadily accelerated: its swing, and where it lands. As
-   contactkit/models/micromirror/flight.py. */
+   models/micromirror/flight.py. */
 
 #include "tip.h"
 

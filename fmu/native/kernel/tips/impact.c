@@ -1,14 +1,16 @@
 /* Impact of a spring tip on a site that deforms, and rest on it. As
-   contactkit/models/micromirror/tip_impact.py, operation by operation. */
+   models/micromirror/tip_impact.py, operation by operation. */
 
 #include "root.h"
 #include "tip.h"
 
 #include <math.h>
 
-#define PARTS 30 /* halvings of an unloading curve, in which its work is summed */
-#define SAME 1e-12
-#define SAME_FRACTION 1e-13 /* of a step */
+/* Halvings of an unloading curve towards its end, in which its work is summed: the force ends there like
+   a power 3/2, and 2^-30 of the curve holds 1e-22 of the work. */
+#define PARTS 30
+#define SAME 1e-12          /* depths closer than this, relatively, are one */
+#define SAME_FRACTION 1e-13 /* of a step: times closer than this are one */
 
 /* Depth, speed, impulse of the spring, and work of the damping. */
 enum { DEPTH, SPEED, IMPULSE, DAMPED, UNKNOWNS };

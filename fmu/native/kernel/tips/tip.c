@@ -1,6 +1,6 @@
 /* tip-contact: spring tips on a landing site; motion of their root in, force out.
 
-   As fmu/slaves/tip_contact.py: contactkit/models/micromirror/tip.py steps a tip that is landed, held
+   As fmu/slaves/tip_contact.py: models/micromirror/tip.py steps a tip that is landed, held
    by its film, free, or strikes a site that deforms. What is set when a step is taken is where the
    root is at its start. */
 
