@@ -171,7 +171,7 @@ HardnessLaw = FixedHardness | VaryingHardness
 
 
 class InterfaceView(NamedTuple):
-    """What unknowns of effects are made from: the prepared contact, whatever its load.
+    """Prepared contact, whatever its load: all that unknowns of effects are made from.
 
     `self_influence` is the displacement of a pixel under unit pressure on itself [m/Pa],
     `displacements` gives that of each body for a pressure [Pa] and the displacement of both [m],
