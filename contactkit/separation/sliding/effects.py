@@ -190,7 +190,9 @@ class CouetteForce(SlidingForce):
         the round film, once the circles have moved apart in proportion to the shear (within 4 %
         up to half of the travel, 14 % at three quarters); ``"as-published"``, Eq. (3.56), a film
         as thick as its rim throughout: 28 % too low at a rim of twice the gap, for reproduction
-        only. Between flats all three are the same.
+        only. Between flats all three have one drag, but as published its radius is that of the
+        contact circle of the arc, and under a sphere its height s_0 that of the arc, as
+        `ViscousForce` as published has them: up to 3.5 % of the drag at a radius of 50 gaps.
 
     Notes
     -----

@@ -24,6 +24,7 @@ from ..bodies import check_bodies
 from ..effects.base import SeparationEffect
 from ..effects.film_shape import FilmShape
 from ..effects.prepared import PreparedScene, prepare_scene
+from ..effects.published_film import published_film
 from ..effects.viscous import ShearLimit
 from .effects import CouetteForce, SlideLaw, SlidingForce
 
@@ -123,6 +124,9 @@ def plan_sliding(scene: SlidingScene, accuracy: Accuracy | None = None) -> Slidi
     _check_effects(scene, liquid)
     _check_gap(scene)
     prepared = prepare_scene(scene, accuracy, liquid)
+    drag = scene.effect(CouetteForce)
+    if drag is not None and drag.takes_printed():
+        prepared = evolve(prepared, film=published_film(prepared))
     forces = [effect for effect in scene.effects if isinstance(effect, SlidingForce)]
     laws = {type(effect): effect.prepare(prepared) for effect in forces}
     _check_path(scene, laws)
