@@ -15,7 +15,8 @@ from ..numerics.roots import bracketed_root
 from ..scene.curve import Curve
 from ..scene.plan import check_scene
 from ..scene.scenes import SeparationScene
-from ..separation.effects.registry import MeniscusForce, ViscousForce
+from ..separation.effects.meniscus import MeniscusForce
+from ..separation.effects.viscous import ViscousForce
 from ..units import si
 from .division_laws import SOURCES, DivisionLaw, Name, law_of
 

@@ -12,8 +12,9 @@ from ..errors import InfeasibleError, NotSimulatedError, PlanError
 from ..lubrication import squeeze_film as squeeze
 from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime, SeparationLoading
 from ..separation.effects.as_published import mixed
+from ..separation.effects.meniscus import MeniscusForce
 from ..separation.effects.prepared import checked_liquid
-from ..separation.effects.registry import MeniscusForce, ViscousForce
+from ..separation.effects.viscous import ViscousForce
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -82,7 +83,7 @@ def _own_law(scene: SeparationScene) -> Name:
         raise PlanError(both)
     meniscus, viscous = scene.effect(MeniscusForce), scene.effect(ViscousForce)
     if meniscus is not None:
-        return meniscus.profile
+        return meniscus.form
     is_printed = viscous is not None and viscous.closure == "as-published"
     return "as-published" if is_printed else "exact"
 
@@ -153,7 +154,7 @@ def _printed_radius(scene: SeparationScene) -> Callable[[Floats, Floats], Floats
     is_printed = any(
         effect is not None and effect.takes_printed() for effect in (meniscus, viscous)
     )
-    is_disc = meniscus is not None and meniscus.radius == "disc"
+    is_disc = meniscus is not None and meniscus.printed.radius == "disc"
     shape = arc_flat.shape(*_angles(scene))
 
     def radius(volume: Floats, number: Floats) -> Floats:
@@ -161,7 +162,7 @@ def _printed_radius(scene: SeparationScene) -> Callable[[Floats, Floats], Floats
         if not is_printed or is_disc:
             return np.asarray(squeeze.disc_radius(whole, gap) / np.sqrt(number))
         found = np.asarray(arc_flat.contact_radius(shape, gap, whole))
-        if meniscus is not None and meniscus.pulled == "upper":
+        if meniscus is not None and meniscus.printed.pulled == "upper":
             found = np.asarray(arc_flat.upper_contact_radius(shape, gap, found))
         return found / np.sqrt(number)
 
@@ -174,7 +175,7 @@ def _meniscus(
     gap, angles = scene.loading.initial_gap, _angles(scene)
     if name == "as-published":
         effect = scene.effect(MeniscusForce)
-        pulled = effect.pulled if effect is not None else "lower"
+        pulled = effect.printed.pulled if effect is not None else "lower"
         one = _printed_radius(scene)
         from ..as_published.printed.common import meniscus_divided_3_33
 

@@ -7,23 +7,13 @@ from typing import Any
 from attrs import Attribute, field, fields, fields_dict, frozen
 
 from ..errors import DescriptionError
+from ..kinds import TEMPERATURE_LAWS
 from ..units import si
 from ..validators import Described, optional, positive, refuse
-from .temperature_laws import LinearDensity, LinearSurfaceTension, TemperatureLaw, celsius_hint
-from .viscosity import MAX_KINEMATIC_VISCOSITY, VogelViscosity, WaltherViscosity, centistokes_hint
-from .water import IapwsSurfaceTension, KellWaterDensity
+from .temperature_laws import TemperatureLaw, celsius_hint
+from .viscosity import MAX_KINEMATIC_VISCOSITY, centistokes_hint
 
-__all__ = ["LAWS", "Liquid", "LiquidState"]
-
-LAWS: tuple[type[TemperatureLaw], ...] = (
-    WaltherViscosity,
-    VogelViscosity,
-    LinearSurfaceTension,
-    IapwsSurfaceTension,
-    LinearDensity,
-    KellWaterDensity,
-)
-"""Every law a file can name, by its `kind`; which property it gives follows from its `unit`."""
+__all__ = ["Liquid", "LiquidState"]
 
 # Values beyond these are taken for numbers in mN/m, g/mol and GPa. They lie between what occurs in
 # SI units (molten metals 2.5 N/m, polymer oils some kg/mol, liquids 0.3 GPa and more) and what the
@@ -94,7 +84,8 @@ def _constant_or_law(owner: object, attribute: Attribute[Any], value: Any) -> No
     if not isinstance(value, TemperatureLaw):
         positive(owner, attribute, value)
     elif value.unit != attribute.metadata["unit"]:
-        kinds = ", ".join(repr(law.kind) for law in LAWS if law.unit == attribute.metadata["unit"])
+        unit = attribute.metadata["unit"]
+        kinds = ", ".join(repr(law.kind) for law in TEMPERATURE_LAWS if law.unit == unit)
         raise refuse(
             owner,
             attribute,
@@ -267,7 +258,17 @@ class Liquid(Described):
         >>> round(water.molar_volume(293.15) * 1e6, 3)
         18.047
         """
-        density = self.at(temperature).given("density")
+        return self.molar_volume_of(self.at(temperature))
+
+    def molar_volume_of(self, state: LiquidState) -> float:
+        """Molar volume [m3/mol] of this liquid in a state that is known.
+
+        Raises
+        ------
+        DescriptionError
+            If molar mass or density is not given.
+        """
+        density = state.given("density")
         if self.molar_mass is None or density is None:
             name, unit = ("density", "kg/m3") if density is None else ("molar_mass", "kg/mol")
             raise DescriptionError(

@@ -14,7 +14,7 @@ from typing import Literal
 from attrs import Attribute, evolve, field, frozen
 
 from ..errors import DescriptionError, nearest
-from ..liquids.liquid import Liquid
+from ..liquids.liquid import Liquid, LiquidState
 from ..units import si
 from ..validators import (
     Described,
@@ -119,6 +119,11 @@ class Meniscus(Described):
                 hint="each of them is the amount of liquid, and the others follow from the gap",
             )
 
+    @property
+    def has_pressure(self) -> bool:
+        """Whether the amount of liquid is its pressure, given or that of a relative humidity."""
+        return self.pressure is not None or self.relative_humidity is not None
+
     def pressure_at(self, temperature: float) -> float | None:
         r"""Pressure of the liquid [Pa] at a temperature [K]; None if the amount is a volume.
 
@@ -140,10 +145,16 @@ class Meniscus(Described):
         """
         if self.relative_humidity is None:
             return self.pressure
+        return self.pressure_of(self.liquid.at(temperature))
+
+    def pressure_of(self, state: LiquidState) -> float | None:
+        """Pressure of the liquid [Pa] in a state that is known; see `pressure_at`."""
+        if self.relative_humidity is None:
+            return self.pressure
         from ..capillary.kelvin import laplace_pressure
 
-        volume = self.liquid.molar_volume(temperature)
-        return float(laplace_pressure(volume, temperature, self.relative_humidity))
+        volume = self.liquid.molar_volume_of(state)
+        return float(laplace_pressure(volume, state.temperature, self.relative_humidity))
 
     @classmethod
     def from_coverage(

@@ -3,6 +3,7 @@
 effects        Forces, limits and ends of the film that a scene may list.
 plan           Plan of a separation: the checked scene, its liquid, and each effect prepared once.
 bodies         Checks of the two bodies: rigid, flats or spheres, with room for the film.
+face           Film on a face that is no disc: damping law, and cavity on a grid.
 cavity         Cavity of a film that is pulled apart, with the memory of what was torn.
 film           Sum of the prepared forces, and the limits of the liquid.
 simulate       Run of a plan: curve of a speed, impulse of a time, or motion under a pull.

@@ -11,9 +11,11 @@ from attrs import field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, InfeasibleError, PlanError
+from ..kinds import SEPARATION_EFFECTS
 from ..liquids.liquid import LiquidState
+from ..registry import Registry
 from ..scene.column import Column
-from ..scene.effect import EffectRegistry, check_listed
+from ..scene.effect import check_listed
 from ..scene.loading import ImposedForce, ImposedTime
 from ..scene.plan import ScenePlan
 from ..scene.scenes import SeparationScene
@@ -29,12 +31,12 @@ from .effects.base import (
     ForceLaw,
     Limiter,
     LimitKind,
+    SeparationEffect,
     SeparationForce,
     effects_of,
 )
 from .effects.force_law import measured_rate, settled
 from .effects.prepared import PreparedScene, prepare_scene, with_fraction
-from .effects.registry import SEPARATION_EFFECTS, SeparationEffect
 from .film import Film
 from .first_closing import closing_note
 
@@ -65,7 +67,7 @@ class Plan(ScenePlan):
     ``print(plan)`` says what will be simulated and what will not; `cite` gives the sources.
     """
 
-    known_effects: ClassVar[EffectRegistry[SeparationEffect]] = SEPARATION_EFFECTS
+    known_effects: ClassVar[Registry[Any]] = SEPARATION_EFFECTS
 
     prepared: PreparedScene[SeparationScene] = field(repr=False)
     film: Film
@@ -203,7 +205,7 @@ class Plan(ScenePlan):
             found.append("no mass: speeds are those at which the film balances the pull")
         if isinstance(loading, ImposedForce):
             found.append(closing_note(loading, self.film))
-        if not self.scene.interface.has_discs:
+        if not self.scene.interface.has_discs and len(self.forces) > 1:
             found.append(
                 f"the face is no even disc: all but the viscous force take it for one of the same "
                 f"area, of radius {quantity_text(self.scene.interface.rim_radius, 'm')}"
@@ -248,7 +250,7 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
             "an imposed force needs loading.mass [kg], or ViscousForce(), to set a speed"
         )
     if film.end <= loading.initial_gap:
-        raise _too_wide(scene, film.end)
+        raise _too_wide(prepared, film.end)
     check_rim(prepared)
     films = {1.0: film} | _rewetted(prepared, film)
     states = MappingProxyType(_states(films))
@@ -274,7 +276,7 @@ def _check_effects(scene: SeparationScene, kinds: Sequence[type], liquid: Liquid
         for effect in effects_of(scene)
         for item in (*liquid.missing(*effect.liquid_needs(scene)), *effect.lacks(scene))
     ]
-    if scene.liquid_pressure is not None:
+    if scene.meniscus.has_pressure:
         problems += [
             f"{type(e).__name__} needs interface.meniscus.volume [m3] in place of its pressure: it "
             "has no law at a fixed pressure"
@@ -335,12 +337,13 @@ def _check_gap(scene: SeparationScene) -> None:
             raise InfeasibleError(f"loading.initial_gap is 0 m: {effect.touching}")
 
 
-def _too_wide(scene: SeparationScene, end: float) -> InfeasibleError:
+def _too_wide(prepared: PreparedScene[SeparationScene], end: float) -> InfeasibleError:
     """Error that names the largest gap, and the largest number of menisci where that is known."""
+    scene = prepared.scene
     gap, meniscus = scene.loading.initial_gap, scene.meniscus
     reach, cure = "volume", "give more volume or a smaller initial_gap"
-    if scene.liquid_pressure is not None:
-        reach = f"pressure of {scene.liquid_pressure:g} Pa"
+    if prepared.liquid_pressure is not None:
+        reach = f"pressure of {prepared.liquid_pressure:g} Pa"
         cure = "give one nearer to zero (a higher humidity) or a smaller initial_gap"
     elif meniscus.volume is None:
         reach, cure = "liquid", "give a smaller initial_gap"

@@ -172,7 +172,7 @@ def test_a_radius_on_the_upper_body_goes_with_the_body_that_is_pulled():
     scene = ck.SeparationScene(
         interface=ck.Interface(meniscus=film),
         loading=ck.ImposedTime(initial_gap=2e-9, final_gap=80e-9, time=1e-7),
-        effects=(PRINTED, ck.MeniscusForce(profile="as-published", pulled="upper")),
+        effects=(PRINTED, ck.MeniscusForce(profile=ck.AsPublished(pulled="upper"))),
     )
     mean = 0.75 * math.pi * 0.89e-3 * 100e-9**4 * (1 / 2e-9**2 - 1 / 80e-9**2) / 1e-7
     assert ck.simulate(ck.plan(scene)).mean_viscous_force == pytest.approx(mean, rel=1e-9)
@@ -201,7 +201,7 @@ def test_a_flooded_film_keeps_its_radius_rightly():
 
 
 def test_the_closed_neck_stands_beside_the_exact_limit():
-    result = run(PUBLISHED, ck.Rupture(criterion="zero-neck"))
+    result = run(PUBLISHED, ck.Rupture(gap="zero-neck"))
     found = {one.number: one for one in result.errata}
     assert set(found) == {"3.11", "zero neck"}
     assert found["zero neck"].corrected == pytest.approx(

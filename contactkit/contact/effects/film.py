@@ -136,7 +136,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
         lacking = []
         if meniscus.volume is not None:
             lacking.append("a film thickness, not interface.meniscus.volume [m3]: leave that out")
-        if scene.liquid_pressure is not None:
+        if scene.meniscus.has_pressure:
             lacking.append(
                 "a film thickness, not interface.meniscus.pressure [Pa] or relative_humidity [-]: "
                 "leave that out"

@@ -169,10 +169,10 @@ class IslandBridges(Observer[IslandPart]):
         lacking = []
         if meniscus.volume is not None:
             lacking.append("interface.meniscus.volume [m3] left out: the islands set the volumes")
-        if (scene.liquid_pressure is None) == (self.film_thickness is None):
+        if meniscus.has_pressure is not (self.film_thickness is None):
             lacking.append("either film_thickness [m] or interface.meniscus.pressure [Pa]")
         angles = meniscus.contact_angle_lower + meniscus.contact_angle_upper
-        if scene.liquid_pressure is not None and angles >= math.pi:
+        if meniscus.has_pressure and angles >= math.pi:
             lacking.append(
                 "contact angles that add up to less than 180 deg: nothing condenses between others"
             )
@@ -223,7 +223,8 @@ def bridges_of(
 def _wetting(effect: IslandBridges, contact: Contact, pressure: float | None) -> _Wetting:
     meniscus, tension = contact.scene.meniscus, contact.liquid.surface_tension
     angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
-    pressure = pressure if pressure is not None else contact.scene.liquid_pressure
+    if pressure is None:
+        pressure = meniscus.pressure_of(contact.liquid)
     thickness = effect.film_thickness or 0.0
     if effect.meniscus_height is not None:
         height = effect.meniscus_height

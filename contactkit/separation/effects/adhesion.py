@@ -219,7 +219,7 @@ class AdhesiveContact(SeparationForce):
                 )
         if _wetting(scene) <= 0.0:
             missing.append("contact angles that sum up to less than 180 deg: the liquid repels")
-        if self.model != "jkr" and self.strength is None and scene.liquid_pressure is None:
+        if self.model != "jkr" and self.strength is None and not scene.meniscus.has_pressure:
             missing.append("AdhesiveContact.strength [Pa], the suction of the liquid")
         return tuple(missing)
 
@@ -312,7 +312,7 @@ class AdhesiveContact(SeparationForce):
             return self.strength
         if self.work_of_adhesion != "capillary":
             return float(cohesive_stress(work, self.equilibrium_distance))
-        pressure = prepared.scene.liquid_pressure
+        pressure = prepared.liquid_pressure
         return None if pressure is None else -pressure
 
 

@@ -124,7 +124,7 @@ class AsperityMenisci(SeparationForce):
                 "interface.meniscus.pressure [Pa] or meniscus_height [m], not a volume: which "
                 "summits share it is not known"
             )
-        elif (scene.liquid_pressure is None) == (self.meniscus_height is None):
+        elif scene.meniscus.has_pressure is not (self.meniscus_height is None):
             missing.append("either interface.meniscus.pressure [Pa] or meniscus_height [m]")
         if _wetting(scene) <= 0.0:
             missing.append(
@@ -154,7 +154,7 @@ class AsperityMenisci(SeparationForce):
         if self.meniscus_height is not None:
             return self.meniscus_height
         pressure, tension = (
-            prepared.scene.liquid_pressure,
+            prepared.liquid_pressure,
             prepared.liquid.surface_tension,
         )
         return float(meniscus_height(pressure, tension, _wetting(prepared.scene)))

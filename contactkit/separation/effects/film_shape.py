@@ -43,7 +43,7 @@ class FilmShape(NamedTuple):
 def needs_extent(scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
     """Ask for a volume or a rim where the film between two flats would have no end."""
     interface, meniscus = scene.interface, scene.meniscus
-    if scene.liquid_pressure is not None:
+    if meniscus.has_pressure:
         if interface.is_flat:
             return ("interface.meniscus.volume [m3] between flats",)
         wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
@@ -54,15 +54,21 @@ def needs_extent(scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
 
 
 def film_shape(
-    scene: SeparationScene | SlidingScene, liquid: LiquidState, *, constant_radius: bool = False
+    scene: SeparationScene | SlidingScene,
+    liquid: LiquidState,
+    pressure: float | None,
+    *,
+    constant_radius: bool = False,
 ) -> FilmShape:
-    """Shape of one film of the scene; with `constant_radius` it never draws in."""
+    """Shape of one film of the scene, at a pressure of the liquid [Pa] where that is its amount.
+
+    With `constant_radius` it never draws in.
+    """
     interface, meniscus = scene.interface, scene.meniscus
     n = meniscus.count
     volume = math.inf if meniscus.volume is None else meniscus.volume / n
     # The faces are shared out: n films, each with its part of the area.
     rim = scene.interface.rim_radius / math.sqrt(n)
-    pressure = scene.liquid_pressure
     if pressure is not None:
         return _at_pressure(scene, liquid.surface_tension, pressure, rim)
     start, sphere = scene.initial_gap, interface.sphere_radius

@@ -53,7 +53,7 @@ def meniscus_shape(
     import numpy as np
 
     try:
-        pressure = prepared.scene.liquid_pressure
+        pressure = prepared.liquid_pressure
         if pressure is not None:
             return _at_pressure(prepared, pressure, gaps)
         if prepared.scene.interface.is_flat:

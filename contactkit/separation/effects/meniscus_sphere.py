@@ -71,7 +71,7 @@ def _fixed(prepared: PreparedScene[SeparationScene]) -> tuple[float, float, floa
 
 def exact_end(prepared: PreparedScene[SeparationScene]) -> float:
     """Gap [m] at which the exact bridge on a sphere ends."""
-    pressure, fixed = prepared.scene.liquid_pressure, _fixed(prepared)
+    pressure, fixed = prepared.liquid_pressure, _fixed(prepared)
     if pressure is not None:
         from ...capillary.exact.at_pressure import max_gap_at_pressure
 
@@ -83,7 +83,7 @@ def exact_end(prepared: PreparedScene[SeparationScene]) -> float:
 
 def contact_radius(prepared: PreparedScene[SeparationScene], profile: str, gap: float) -> float:
     """Radius [m] of the contact circle on the flat body at a gap [m]; nan without a meniscus."""
-    pressure, film, fixed = prepared.scene.liquid_pressure, prepared.film, _fixed(prepared)
+    pressure, film, fixed = prepared.liquid_pressure, prepared.film, _fixed(prepared)
     found: Any
     if profile != "exact":
         from ...capillary.arc import sphere as arc_sphere
@@ -104,7 +104,7 @@ def contact_radius(prepared: PreparedScene[SeparationScene], profile: str, gap: 
 
 
 def _exact(prepared: PreparedScene[SeparationScene]) -> _Bridges:
-    pressure = prepared.scene.liquid_pressure
+    pressure = prepared.liquid_pressure
     film, fixed, end = prepared.film, _fixed(prepared), exact_end(prepared)
     if pressure is None:
         from ...capillary.exact.bridge import bridge

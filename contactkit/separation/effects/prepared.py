@@ -49,12 +49,15 @@ class PreparedScene(Generic[S_co]):
     """A scene whose liquid is evaluated at its temperature and whose film has its shape.
 
     `liquid` gives each property that the listed effects need; `film` is the shape of one film.
+    `liquid_pressure` is that of the liquid [Pa], given or of its relative humidity; None for a
+    volume.
     """
 
     scene: S_co
     accuracy: Accuracy
     liquid: LiquidState
     film: FilmShape
+    liquid_pressure: float | None
 
     @property
     def angles(self) -> Angles:
@@ -130,8 +133,10 @@ def prepare_scene(
     Raises
     ------
     DescriptionError
-        If the liquid does not give what the shape of the film depends on.
+        If the liquid does not give what its pressure or the shape of the film depends on.
     """
     if liquid is None:
         liquid = scene.meniscus.liquid.at(scene.temperature)
-    return PreparedScene(scene, accuracy or Accuracy.standard, liquid, film_shape(scene, liquid))
+    pressure = scene.meniscus.pressure_of(liquid)
+    film = film_shape(scene, liquid, pressure)
+    return PreparedScene(scene, accuracy or Accuracy.standard, liquid, film, pressure)

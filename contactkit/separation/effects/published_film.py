@@ -53,7 +53,7 @@ def _circle(prepared: Prepared, gap: float) -> float:
         return prepared.film.rim
     if effect is None:
         return printed_radius(prepared, "lower", "arc", gap).radius
-    return printed_radius(prepared, effect.pulled, effect.radius, gap).radius
+    return printed_radius(prepared, effect.printed.pulled, effect.printed.radius, gap).radius
 
 
 def _height(prepared: Prepared, gap: float) -> float:

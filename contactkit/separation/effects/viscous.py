@@ -189,7 +189,7 @@ class ViscousForce(SeparationForce):
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.liquid_needs`: a film of fixed pressure has a height as well."""
-        at_pressure = scene.liquid_pressure is not None
+        at_pressure = scene.meniscus.has_pressure
         return ("viscosity", "surface_tension") if at_pressure else ("viscosity",)
 
     def proportional_to(self, scene: SeparationScene) -> str:
@@ -201,7 +201,7 @@ class ViscousForce(SeparationForce):
         if not scene.interface.has_discs:
             return _needs_of_face(scene)
         missing: tuple[str, ...] = ()
-        if scene.liquid_pressure is not None and self.closure != "volume-conserving":
+        if scene.meniscus.has_pressure and self.closure != "volume-conserving":
             missing += (
                 f"interface.meniscus.volume [m3] with closure={self.closure!r}: at a fixed "
                 f'pressure the rim keeps its height (or closure="volume-conserving")',
@@ -251,7 +251,7 @@ def _needs_of_face(scene: SeparationScene) -> tuple[str, ...]:
     needs = {
         "a flooded film, without interface.meniscus.volume or a pressure: the rim of one that "
         "draws in from a face that is no disc is not known": meniscus.volume is None
-        and scene.liquid_pressure is None,
+        and not meniscus.has_pressure,
         "interface.meniscus.count = 1: a face that is no disc is not shared out": meniscus.count
         == 1,
         "an even disc, of a given radius, for the equations as published": viscous is None
@@ -587,7 +587,8 @@ def viscous_film(prepared: PreparedScene[SeparationScene]) -> FilmShape:
         return published_film(prepared)
     if not keeps_radius(scene):
         return prepared.film
-    return film_shape(scene, prepared.liquid, constant_radius=True)
+    pressure = prepared.liquid_pressure
+    return film_shape(scene, prepared.liquid, pressure, constant_radius=True)
 
 
 def _erratum(plan: PlanView) -> PublishedValue:

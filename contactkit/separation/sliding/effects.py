@@ -12,7 +12,6 @@ from attrs import Attribute, field, frozen
 from ...as_published.printed.errata import ERRATA
 from ...errors import DescriptionError
 from ...scene.column import Column
-from ...scene.effect import EffectRegistry
 from ...scene.scenes import SlidingScene
 from ...units import si
 from ...validators import angle, choice, optional, positive, refuse
@@ -31,7 +30,6 @@ if TYPE_CHECKING:
     Curve = NDArray[np.float64]
 
 __all__ = [
-    "SLIDING_EFFECTS",
     "ContactAngleHysteresis",
     "CouetteForce",
     "CouettePart",
@@ -103,7 +101,7 @@ class SlidingForce(SeparationEffect):
     `column` names its curve and, by `Column.impulse`, its impulse.
     """
 
-    acts_in: ClassVar[str] = "sliding"
+    family: ClassVar[str] = "sliding effect"
     column: ClassVar[Column]
 
     @classmethod
@@ -437,9 +435,3 @@ class ContactAngleHysteresis(SlidingForce):
     def part(self, result: SlideView) -> HysteresisPart:
         """See `SlidingForce.part`."""
         return HysteresisPart(result, self.column)
-
-
-SLIDING_EFFECTS: EffectRegistry[SlidingForce] = EffectRegistry(
-    CouetteForce, ContactAngleHysteresis, acts_in="sliding"
-)
-"""The effects of a `SlidingScene`; a `ShearLimit` may stand beside them."""

@@ -18,6 +18,7 @@ import contactkit as ck
 from contactkit.fmu.native.film import moving, prepared_film
 from contactkit.scene.column import Column
 from contactkit.separation.effects.base import ForceLaw, SeparationForce
+from contactkit.separation.sliding.effects import SLIDING_EFFECTS, SlideLaw, SlidingForce
 from contactkit.units import si
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
@@ -265,7 +266,7 @@ def test_a_word_that_the_force_does_not_keep_is_refused(brake, rate):
 @pytest.fixture
 def known():
     with ck.EFFECTS.including():
-        ck.register_effect(Brake)
+        ck.register(Brake)
         yield
 
 
@@ -331,3 +332,40 @@ def test_a_native_fmu_moves_as_the_plan(rest, tears, tmp_path):
     viscous = there["viscous_force"][-1] + 5.0 * state.speed
     assert found["F_v"] == pytest.approx(viscous, rel=1e-4)
     assert found["W"] == pytest.approx(state.dissipated_work, rel=1e-4)
+
+
+# Along the bodies ------------------------------------------------------------------------------
+
+
+@frozen(kw_only=True)
+class SquareDrag(SlidingForce):
+    """Drag q v^2 along the bodies."""
+
+    name: ClassVar[str] = "square-drag"
+    summary: ClassVar[str] = "drag of the square of the speed"
+    column: ClassVar[Column] = Column("square_force", "N", "square drag")
+    sources = ("nobody",)
+    square: float = 3.0
+
+    def prepare(self, prepared):
+        return SlideLaw(lambda travel, speed: self.square * speed**2 + 0.0 * travel)
+
+
+def slid(**loading):
+    oil = ck.Liquid(name="oil", viscosity=VISCOSITY, surface_tension=0.03)
+    face = ck.Flat(radius=RADIUS)
+    film = ck.Meniscus(liquid=oil, volume=VOLUME)
+    interface = ck.Interface(lower=face, upper=face, meniscus=film)
+    return ck.SlidingScene(
+        interface=interface, loading=ck.Sliding(gap=START, **loading), effects=(SquareDrag(),)
+    )
+
+
+def test_a_drag_along_the_bodies_follows_the_speed_and_needs_one():
+    with SLIDING_EFFECTS.including(SquareDrag):
+        result = ck.simulate(ck.plan(slid(speed=0.1)))
+        with pytest.raises(ck.PlanError, match=r"SquareDrag needs loading.speed \[m/s\]"):
+            ck.plan(slid(time=1e-2))
+    np.testing.assert_allclose(result["square_force"], 3.0 * 0.1**2, rtol=1e-12)
+    length = float(result["travel"][-1])
+    assert result.of(SquareDrag).impulse == pytest.approx(3.0 * 0.1 * length, rel=1e-9)
