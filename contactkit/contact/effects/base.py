@@ -228,7 +228,7 @@ class Array(NamedTuple):
 class ContactEffect(Effect, Generic[Part]):
     """An effect of a `ContactScene`; `Part` is what ``result.of`` gives for it."""
 
-    acts_in: ClassVar[str] = "contact"
+    family: ClassVar[str] = "contact effect"
     scalars: ClassVar[tuple[Scalar, ...]] = ()
     """Numbers of the part, for tables, studies and files."""
     arrays: ClassVar[tuple[Array, ...]] = ()
