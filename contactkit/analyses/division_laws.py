@@ -154,7 +154,7 @@ def _printed_radius(scene: SeparationScene) -> Callable[[Floats, Floats], Floats
     is_printed = any(
         effect is not None and effect.takes_printed() for effect in (meniscus, viscous)
     )
-    is_disc = meniscus is not None and meniscus.takes_printed() and meniscus.printed.radius == "disc"
+    is_disc = meniscus is not None and meniscus.printed.radius == "disc"
     shape = arc_flat.shape(*_angles(scene))
 
     def radius(volume: Floats, number: Floats) -> Floats:
