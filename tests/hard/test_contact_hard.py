@@ -417,7 +417,7 @@ def test_the_continuous_rule_agrees_with_the_displacement_it_leads_to(
 ):
     from contactkit.elasticity.hardness_rules import effective_hardness
 
-    limit = ck.HardnessLimit(displacement=displacement)
+    limit = ck.HardnessLimit(rule=ck.ContinuousHardness(displacement=displacement))
     run = solved(limit, lower=stack, pressure=pressure)
     hardness = run.of(ck.HardnessLimit).hardness
     check(run, hardness)
