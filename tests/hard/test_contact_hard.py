@@ -353,7 +353,8 @@ def test_iterations_of_the_hardness_that_run_out_say_so_and_hand_over_what_they_
     displacement, problem, monkeypatch
 ):
     monkeypatch.setattr("contactkit.contact.outer.iteration.MAX_ITERATIONS", 2)
-    plan = made(ck.HardnessLimit(displacement=displacement), lower=HARD_ON_SOFT, pressure=6e7)
+    limit = ck.HardnessLimit(rule=ck.ContinuousHardness(displacement=displacement))
+    plan = made(limit, lower=HARD_ON_SOFT, pressure=6e7)
     with pytest.raises(ck.ConvergenceError, match=problem) as caught:
         ck.solve(plan)
     reached = ck.solve(plan, throw=False)
@@ -416,7 +417,7 @@ def test_the_continuous_rule_agrees_with_the_displacement_it_leads_to(
 ):
     from contactkit.elasticity.hardness_rules import effective_hardness
 
-    limit = ck.HardnessLimit(displacement=displacement)
+    limit = ck.HardnessLimit(rule=ck.ContinuousHardness(displacement=displacement))
     run = solved(limit, lower=stack, pressure=pressure)
     hardness = run.of(ck.HardnessLimit).hardness
     check(run, hardness)

@@ -6,13 +6,16 @@ operators it takes as matrices.
 """
 
 import math
+from typing import ClassVar
 
 import numpy as np
 import pytest
-from attrs import evolve
+from attrs import evolve, field, frozen
 
 import contactkit as ck
+from contactkit.contact.effects.base import ContactEffect
 from contactkit.contact.effects.elasticity import bodies_of
+from contactkit.contact.outer.displacement import TractionDisplacement
 from contactkit.contact.slip.coupling import coupling_of
 from contactkit.elasticity.hardness_rules import effective_hardness
 
@@ -255,6 +258,39 @@ def test_a_pull_is_carried_beside_friction_and_too_much_of_it_refused():
     assert held.mean_pressure == pytest.approx(-1e6, rel=1e-7)
     with pytest.raises(ck.InfeasibleError, match="exceeds the pull-off force"):
         solved(adhesion(), *SLIDING, loading=ck.Pressing(pressure=-1e9))
+
+
+class LinerDisplacement(TractionDisplacement):
+    """Compression of a liner, in proportion to the pressure."""
+
+    name = "compression of the liner"
+
+
+@frozen(kw_only=True)
+class Liner(ContactEffect[None]):
+    """An effect of one's own: a liner of independent springs between the bodies."""
+
+    name: ClassVar[str] = "liner"
+    summary: ClassVar[str] = "liner of springs"
+    sources: ClassVar[tuple[str, ...]] = ("Winkler 1867",)
+    softness: float = field(metadata={"unit": "m/Pa"})
+
+    def unknowns(self, view):
+        """The compression, which lowers the heights."""
+        shape, own = view.grid.shape, view.self_influence
+        return (LinerDisplacement(lambda p: self.softness * p, shape, own, self.name),)
+
+
+def test_an_effect_of_ones_own_brings_an_unknown():
+    result = solved(Liner(softness=2e-18), adhesion())
+    compliance = matrix_of(result.plan.prepared.solver.displacement)
+    right = (result.heights + result.rigid_approach).ravel()
+    tension = result.of(ck.Adhesion).tension.ravel()
+    # Springs under the pressure of contact; the tension displaces the solid alone.
+    q = bounded(compliance + 2e-18 * np.eye(N * N), right + compliance @ tension, np.inf)
+    assert result.pressure.ravel() == pytest.approx(q - tension, abs=1e-5 * q.max())
+    alone = solved(adhesion())
+    assert result.max_pressure < 0.95 * alone.max_pressure
 
 
 # Histories ----------------------------------------------------------------------------------

@@ -22,7 +22,8 @@ WATER = ck.Meniscus(
     contact_angle_upper=0.2,
 )
 COUPLING = (ck.FrictionTraction(coefficient=0.5), ck.FrictionCoupling())
-LIMIT, LOCAL = ck.HardnessLimit(), ck.HardnessLimit(displacement="local")
+LIMIT = ck.HardnessLimit()
+LOCAL = ck.HardnessLimit(rule=ck.ContinuousHardness(displacement="local"))
 STICKY = ck.Adhesion(law=ck.ExponentialAttraction(work_of_adhesion=0.05, range=1e-9))
 FILM = ck.FilmMeniscus(film_thickness=1.5e-9, self_consistent=True)
 

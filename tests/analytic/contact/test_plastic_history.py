@@ -248,7 +248,7 @@ def film(hard, soft):
 @pytest.mark.parametrize("displacement", ["largest", "local"])
 @pytest.mark.parametrize("hardness", [(3e8, 1e8), (1e8, 3e8)])
 def test_unloading_changes_no_hardness_that_depends_on_depth(hardness, displacement):
-    limit = ck.HardnessLimit(displacement=displacement)
+    limit = ck.HardnessLimit(rule=ck.ContinuousHardness(displacement=displacement))
     history = ck.PlasticHistory(pressures=(2e7, 1e6), steps=2)
     given = {"solid": film(*hardness)}
     result = pressed(ck.Pressing(pressure=2e7), limit, history, **given)
