@@ -30,7 +30,7 @@ from contactkit.contact.effects.base import (
     Observer,
     PressureBound,
 )
-from contactkit.liquids.liquid import LAWS
+from contactkit.kinds import TEMPERATURE_LAWS
 from contactkit.separation.effects.base import (
     Effect,
     FilmEnd,
@@ -82,9 +82,23 @@ SCENE_OBJECTS = [
     ck.TangentialStep,
     ck.Vibration,
     ck.Wave,
+    ck.Difference,
+    ck.Disc,
+    ck.Ellipse,
+    ck.Image,
+    ck.Intersection,
+    ck.Polygon,
+    ck.Rectangle,
+    ck.Ring,
+    ck.Sector,
+    ck.Union,
+    ck.Recess,
+    ck.SealedHole,
+    ck.Vent,
+    ck.Planform,
     ck.Window,
 ]
-DESCRIBED = [*SCENE_OBJECTS, *ck.EFFECTS, *LAWS]
+DESCRIBED = [*SCENE_OBJECTS, *ck.EFFECTS, *TEMPERATURE_LAWS]
 
 
 def python_files():
