@@ -173,7 +173,7 @@ def test_the_plan_refuses_what_a_run_would_and_a_run_before_its_solve(
     tmp_path, capsys, monkeypatch, command, old, new, message
 ):
     assert old in SMALL
-    monkeypatch.setattr("contactkit.contact.solve._solve_all", None)
+    monkeypatch.setattr("contactkit.contact.solve._solved", None)
     path = tmp_path / "bad.toml"
     path.write_text(SMALL.replace(old, new))
     assert main([command, str(path)]) == 2

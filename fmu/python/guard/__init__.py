@@ -78,7 +78,7 @@ def _compiler() -> str:
 @cache
 def _compiled(compiler: str, _variable: str) -> bytes:
     here = Path(__file__).parent
-    kernel = here.parents[1] / "native" / "kernel"
+    kernel = here.parents[1] / "native" / "kernel" / "fmi"
     with tempfile.TemporaryDirectory(prefix="contactkit-") as name:
         folder = Path(name)
         for source in (here / "guard.c", *(kernel / shared for shared in _SHARED)):
