@@ -24,7 +24,7 @@ __all__ = ["can_guard", "protect"]
 
 _PLATFORM = "linux-x86_64"  # the one whose loader needs a guard most, and that could be tested
 _FOLDER = "binaries/linux64"
-_SHARED = ("host.c", "host.h")  # of the native kernel
+_SHARED = ("host.c", "host.h")  # of the native kernel, in fmi
 
 
 def can_guard() -> bool:
