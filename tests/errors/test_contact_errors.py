@@ -245,6 +245,7 @@ def test_only_adhesion_carries_a_pull(name, unit):
 
 def test_a_rule_with_a_field_that_must_be_given_is_no_word():
     refuses(lambda: ck.HardnessLimit(rule="constant"), "HardnessLimit.rule", "hardness=...")
+    refuses(lambda: ck.HardnessLimit(rule="other"), "HardnessLimit.rule", "'other'", "literal")
 
 
 # Choices and parts --------------------------------------------------------------------------
@@ -253,7 +254,6 @@ def test_a_rule_with_a_field_that_must_be_given_is_no_word():
 @pytest.mark.parametrize(
     ("build", "field", "right"),
     [
-        (lambda: ck.HardnessLimit(rule="other"), "HardnessLimit.rule", "literal"),
         (
             lambda: ck.ContinuousHardness(displacement="other"),
             "ContinuousHardness.displacement",
