@@ -53,6 +53,11 @@ class _Listing(Sequence[type[T_co]], Generic[T_co]):
         """Classes by their names in files."""
         return {one.name_of(kind): kind for one in self._registries() for kind in one.listed()}
 
+    def get(self, name: str) -> type[T_co] | None:
+        """Return the class of a name; None if there is none. No other class is imported."""
+        found = (registry.get(name) for registry in self._registries())
+        return next((kind for kind in found if kind is not None), None)
+
     def find(self, name: object, field: str = "") -> type[T_co]:
         """Return the class of a name in files; of other packages only that one is imported.
 
@@ -62,10 +67,8 @@ class _Listing(Sequence[type[T_co]], Generic[T_co]):
             If there is none, or the package that declares it cannot be imported.
         """
         registries = self._registries()
-        if isinstance(name, str):
-            for registry in registries:
-                if (kind := registry.get(name)) is not None:
-                    return kind
+        if isinstance(name, str) and (kind := self.get(name)) is not None:
+            return kind
         hint = ""
         for group, what in dict.fromkeys((one.group, one.what) for one in registries if one.group):
             broken = [found for found in installed_kinds(group, str(name)) if found.problem]

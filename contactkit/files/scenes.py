@@ -132,7 +132,7 @@ def scene_kind(
 ) -> type[SeparationScene] | type[SlidingScene] | type[ContactScene]:
     """Kind of scene of some tables, by the kind of their loading."""
     loading = tables.get("loading")
-    kind = LOADINGS.by_name.get(str(loading.get("kind"))) if isinstance(loading, Mapping) else None
+    kind = LOADINGS.get(str(loading.get("kind"))) if isinstance(loading, Mapping) else None
     if kind is None:
         return ContactScene if "window" in tables else SeparationScene
     if issubclass(kind, ContactLoading):

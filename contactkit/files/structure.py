@@ -294,12 +294,13 @@ def _body(value: Any, _: Any) -> Body:
 def _loading(value: Any, wanted: type[Loading]) -> Loading:
     """A table with the kind of a loading, and the fields of that kind only."""
     known = KINDS.of(wanted) or LOADINGS
-    expected = f"name a loading: {' or '.join(map(repr, known.by_name))}"
     if not isinstance(value, Mapping):
+        expected = f"name a loading: {' or '.join(map(repr, known.by_name))}"
         raise DescriptionError("loading", value, f"be a table with a key 'kind', to {expected}")
     given, fields = value.get("kind"), {key: value[key] for key in value if key != "kind"}
-    kind = known.by_name.get(given) if isinstance(given, str) else None
+    kind = known.get(given) if isinstance(given, str) else None
     if kind is None:
+        expected = f"name a loading: {' or '.join(map(repr, known.by_name))}"
         fits = [name for name, one in known.by_name.items() if fields.keys() <= _keys(one)]
         hint = f"its keys are those of kind = {' or '.join(map(repr, fits))}" if fits else ""
         raise DescriptionError("loading.kind", given, expected, hint=hint)

@@ -79,7 +79,8 @@ class _Tables(NamedTuple):
             elif a.init and item is not None and item != a.default:
                 table[a.alias] = self.of(item, f"{place}.{a.alias}")
         registry = KINDS.of(kind)
-        return table[registry.tag] if registry and registry.plain and len(table) == 1 else table
+        is_plain = registry is not None and registry.plain and len(table) == 1
+        return table[registry.tag] if registry is not None and is_plain else table
 
     def _tagged(self, value: Any, place: str) -> dict[str, Any]:
         """Key and name of the kind of an object, if it is one of several."""

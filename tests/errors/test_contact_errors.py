@@ -95,8 +95,8 @@ FIELDS = [
     (ck.IslandBridges(), "film_thickness", "m", POSITIVE, [0.0, -1e-9]),
     (ck.IslandBridges(), "meniscus_height", "m", POSITIVE, [0.0, -1e-9]),
     (ck.IslandBridges(), "connectivity", "", "be 4 or 8 neighbours", [0, 6, None]),
-    (ck.HardnessLimit(), "hardness", "Pa", POSITIVE, [0.0, -1.0]),
-    (ck.HardnessLimit(), "shift", "", NON_NEGATIVE, [-0.1, None]),
+    (ck.ConstantHardness(hardness=1e9), "hardness", "Pa", POSITIVE, [0.0, -1.0]),
+    (ck.ContinuousHardness(), "shift", "", NON_NEGATIVE, [-0.1, None]),
     (FRICTION, "coefficient", "", "lie between 0 and 1000", [-0.1, 1001.0, None]),
     (FRICTION, "direction", "rad", FINITE, [None]),
     (ck.SubsurfaceStress(), "window", "", POSITIVE, [0.0, -1.0, None]),
@@ -129,7 +129,7 @@ ELSEWHERE = {
         )
     ),
 }
-OF_A_SEPARATION = {"time_rtol", "curve_rtol", "points", "max_steps"}
+OF_A_SEPARATION = {"time_rtol", "curve_rtol", "film_rtol", "points", "max_steps"}
 
 
 def misfit(thing, field, unit, expected, value):
@@ -243,14 +243,17 @@ def test_only_adhesion_carries_a_pull(name, unit):
     )
 
 
+def test_a_rule_with_a_field_that_must_be_given_is_no_word():
+    refuses(lambda: ck.HardnessLimit(rule="constant"), "HardnessLimit.rule", "hardness=...")
+    refuses(lambda: ck.HardnessLimit(rule="other"), "HardnessLimit.rule", "'other'", "literal")
+
+
 # Choices and parts --------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("build", "field", "right"),
     [
-        (lambda: ck.HardnessLimit(rule="other"), "HardnessLimit.rule", "'literal'"),
-        (lambda: ck.HardnessLimit(rule="constant"), "HardnessLimit.rule", "hardness=..."),
         (
             lambda: ck.ContinuousHardness(displacement="other"),
             "ContinuousHardness.displacement",

@@ -27,11 +27,11 @@ _JUST_BELOW = 1.0 - 1e-6  # of the gap at which a bridge ends
 
 
 def _gap(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    if isinstance(value, str) and value not in ("limit", "zero-neck"):
-        expected = "be positive and finite, or one of 'limit', 'zero-neck'"
-        raise refuse(owner, attribute, value, expected)
-    if not isinstance(value, str):
-        positive(owner, attribute, value)
+    if value in ("limit", "zero-neck"):
+        return
+    if isinstance(value, str) and not value[:1].isdigit():  # a word, no length with its unit
+        raise refuse(owner, attribute, value, "be positive and finite, 'limit' or 'zero-neck'")
+    positive(owner, attribute, value)
 
 
 @frozen(kw_only=True)
