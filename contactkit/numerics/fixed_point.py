@@ -97,7 +97,7 @@ class Anderson:
     """
 
     # With a memory of two, secants, a friction coupling of 3 does not settle; three take 4 % more
-    # applications, six 3 % fewer, and keep four maps more. The growth decides nothing from 1.2 to 5.
+    # applications, six 3 % fewer and four maps more. The growth decides nothing from 1.2 to 5.
     def __init__(self, memory: int = 4, growth: float = 2.0) -> None:
         self._memory, self._growth = memory, growth
         self._history: list[tuple[Blocks, Blocks]] = []

@@ -12,7 +12,6 @@ interface            Two bodies and the meniscus between them; the conventions o
 window               Part of the interface that a contact is solved in, and its grid.
 loading              Imposed speed, force or time; pressing or approach; sliding.
 effect               Base class of all effects, and their registry.
-installed_effects    Effects of other packages, declared as entry points.
 scenes               Contact, separation and sliding: interface, loading and effects.
 plan                 Base class of all plans.
 result               Base class of all results.

@@ -11,9 +11,9 @@ first_closing  Bodies that close before a rising pull opens them.
 prescribed     Separations at an imposed speed, or within an imposed time.
 vibration      Separation at an imposed speed with a vibration of the gap.
 torn_path      Film that tears, along an imposed motion.
-torn_cycles    Film that tears, over the cycles of a vibration.
 motion_curves  Curves of a motion, computed when asked for.
 refine         Points between the steps of a motion where straight lines need them.
+bridge_end     How near a bridge is to its end, for the points of its shape.
 motion         Motion of a mass under a pull: state, events, time steps.
 integrator     Implicit integration of a mass on a stiff film.
 curve_result   Base class of the results of a separation and of a sliding.

@@ -11,9 +11,11 @@ from attrs import field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, InfeasibleError, PlanError
+from ..kinds import SEPARATION_EFFECTS
 from ..liquids.liquid import LiquidState
+from ..registry import Registry
 from ..scene.column import Column
-from ..scene.effect import EffectRegistry, check_listed
+from ..scene.effect import check_listed
 from ..scene.loading import ImposedForce, ImposedTime
 from ..scene.plan import ScenePlan
 from ..scene.scenes import SeparationScene
@@ -29,12 +31,12 @@ from .effects.base import (
     ForceLaw,
     Limiter,
     LimitKind,
+    SeparationEffect,
     SeparationForce,
     effects_of,
 )
 from .effects.force_law import measured_rate, settled
 from .effects.prepared import PreparedScene, prepare_scene, with_fraction
-from .effects.registry import SEPARATION_EFFECTS, SeparationEffect
 from .film import Film
 from .first_closing import closing_note
 
@@ -65,7 +67,7 @@ class Plan(ScenePlan):
     ``print(plan)`` says what will be simulated and what will not; `cite` gives the sources.
     """
 
-    known_effects: ClassVar[EffectRegistry[SeparationEffect]] = SEPARATION_EFFECTS
+    known_effects: ClassVar[Registry[Any]] = SEPARATION_EFFECTS
 
     prepared: PreparedScene[SeparationScene] = field(repr=False)
     film: Film

@@ -22,7 +22,7 @@ from refusals import (
 from selection import quick
 
 import contactkit as ck
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
+from contactkit.kinds import CONTACT_EFFECTS
 from contactkit.scene.effect import as_written
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
@@ -250,7 +250,12 @@ def test_only_adhesion_carries_a_pull(name, unit):
     ("build", "field", "right"),
     [
         (lambda: ck.HardnessLimit(rule="other"), "HardnessLimit.rule", "'literal'"),
-        (lambda: ck.HardnessLimit(displacement="other"), "HardnessLimit.displacement", "'local'"),
+        (lambda: ck.HardnessLimit(rule="constant"), "HardnessLimit.rule", "hardness=..."),
+        (
+            lambda: ck.ContinuousHardness(displacement="other"),
+            "ContinuousHardness.displacement",
+            "'local'",
+        ),
         (lambda: ck.SubsurfaceStress(keep="other"), "SubsurfaceStress.keep", "'planes'"),
         (lambda: ck.SubsurfaceStress(reading="other"), "SubsurfaceStress.reading", "'uniform'"),
         (lambda: ck.Measured(path="x", detrend="other"), "Measured.detrend", "'curvature'"),
@@ -359,16 +364,6 @@ def test_an_effect_of_something_else_is_refused_with_the_known_ones(effect):
             (LAYERED, ck.HardnessLimit()),
             {"solid": COATED},
             ("HardnessLimit needs hardness [Pa] of 'bare'",),
-        ),
-        (
-            (HALF_SPACE, ck.HardnessLimit(rule="constant")),
-            {},
-            ("HardnessLimit needs HardnessLimit.hardness [Pa]",),
-        ),
-        (
-            (HALF_SPACE, ck.HardnessLimit(hardness=1e9)),
-            {},
-            ("HardnessLimit.hardness left out with rule='continuous' (or rule='constant')",),
         ),
         (
             (LAYERED, ck.HardnessLimit(rule="literal")),
@@ -582,9 +577,9 @@ def test_a_wave_of_less_than_two_pixels_is_refused():
     [
         (np.full((3, 3), 1e9), ("HardnessMap.values must have the (4, 5) pixels", "(3, 3)")),
         (np.full((4, 5), math.nan), ("HardnessMap.values must", "[Pa]")),
-        (-1.0, ("HardnessLimit.hardness must be positive and finite [Pa], got -1.0",)),
-        (math.nan, ("HardnessLimit.hardness must be positive and finite [Pa], got nan",)),
-        (math.inf, ("HardnessLimit.hardness must be positive and finite [Pa], got inf",)),
+        (-1.0, ("ConstantHardness.hardness must be positive and finite [Pa], got -1.0",)),
+        (math.nan, ("ConstantHardness.hardness must be positive and finite [Pa], got nan",)),
+        (math.inf, ("ConstantHardness.hardness must be positive and finite [Pa], got inf",)),
     ],
 )
 def test_press_refuses_an_impossible_hardness(hardness, parts):

@@ -30,7 +30,7 @@ from contactkit.contact.effects.base import (
     Observer,
     PressureBound,
 )
-from contactkit.liquids.liquid import LAWS
+from contactkit.kinds import TEMPERATURE_LAWS
 from contactkit.separation.effects.base import (
     Effect,
     FilmEnd,
@@ -98,7 +98,7 @@ SCENE_OBJECTS = [
     ck.Planform,
     ck.Window,
 ]
-DESCRIBED = [*SCENE_OBJECTS, *ck.EFFECTS, *LAWS]
+DESCRIBED = [*SCENE_OBJECTS, *ck.EFFECTS, *TEMPERATURE_LAWS]
 
 
 def python_files():

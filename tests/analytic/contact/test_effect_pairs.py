@@ -152,7 +152,7 @@ def test_adhesion_with_friction_coupling_is_that_of_plain_steps(loading):
 def test_adhesion_with_a_local_hardness_is_that_of_plain_steps():
     result = solved(
         adhesion(),
-        ck.HardnessLimit(displacement="local"),
+        ck.HardnessLimit(rule=ck.ContinuousHardness(displacement="local")),
         solid=COATED,
         loading=ck.Pressing(pressure=8e7),
     )
@@ -168,7 +168,9 @@ def test_adhesion_with_one_hardness_is_that_of_its_largest_displacement():
     assert found < 5.9e8
     largest = result.displacement[result.contact].max()
     assert found == pytest.approx(float(rule(np.array(largest))), rel=2e-7)
-    fixed = solved(adhesion(), ck.HardnessLimit(rule="constant", hardness=found), solid=COATED)
+    fixed = solved(
+        adhesion(), ck.HardnessLimit(rule=ck.ConstantHardness(hardness=found)), solid=COATED
+    )
     assert result.pressure == pytest.approx(fixed.pressure, abs=1e-6 * result.max_pressure)
 
 
@@ -257,8 +259,8 @@ def test_a_pull_is_carried_beside_friction_and_too_much_of_it_refused():
 
 # Histories ----------------------------------------------------------------------------------
 
-LIMIT = ck.HardnessLimit(rule="constant", hardness=3e8)
-HARD = ck.HardnessLimit(rule="constant", hardness=1e12)
+LIMIT = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=3e8))
+HARD = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=1e12))
 UP_AND_DOWN = ck.PlasticHistory(pressures=(8e7,), steps=2)
 
 
