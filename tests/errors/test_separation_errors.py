@@ -60,6 +60,8 @@ STICKY = ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=1e9)
 
 FIELDS = [
     (ck.Flat(), "radius", "m", POSITIVE, [0.0, -1e-3]),
+    (ck.Flat(radius=1.0), "tilt", "rad", "be a pair of slopes (x, y)", [1e-3, None]),
+    (ck.Flat(radius=1.0), "crown_radius", "m", "not be zero", [0.0]),
     (ck.Sphere(radius=1.0), "radius", "m", POSITIVE, [0.0, -1e-3, None]),
     (FILM, "volume", "m3", POSITIVE, [0.0, -1e-12]),
     (MOIST, "pressure", "Pa", "be negative and finite", [0.0, 1e5]),
@@ -104,6 +106,7 @@ FIELDS = [
     (STICKY, "strength", "Pa", POSITIVE, [0.0, -1e6]),
     (ACCURACY, "time_rtol", "", "lie between 1e-11 and 0.1", [0.0, -1e-8, 1.0, 1e-14, None]),
     (ACCURACY, "curve_rtol", "", "lie between 1e-6 and 0.1", [0.0, -1e-3, 1.0, None]),
+    (ACCURACY, "film_rtol", "", "lie between 1e-6 and 0.1", [0.0, -1e-3, 1.0, None]),
     (ACCURACY, "points", "", WHOLE, [0, -5, 1.5, None]),
     (ACCURACY, "max_steps", "", WHOLE, [0, -5, 1.5, None]),
 ]

@@ -123,7 +123,7 @@ def _around_the_middle(
     """Disc with one hole, or one recess, about its middle."""
     if len(holes) + len(recesses) != 1:
         return None
-    (one,) = (*holes, *recesses)
+    one: FaceHole | Recess = holes[0] if holes else recesses[0]
     if one.shape.circle is None:
         return None
     x, y, radius = one.shape.circle
