@@ -16,7 +16,7 @@ Examples
 ... )
 >>> print(ck.plan(scene))
 separation: speed imposed, gap 5e-06 m to 2.5e-05 m
-  on   meniscus-force      capillary force of the meniscus (profile='exact', pulled='lower', radius='arc')
+  on   meniscus-force      capillary force of the meniscus (profile='exact')
   on   viscous-force       viscous force of the film (Reynolds) (closure='volume-conserving')
   on   tension-limit       the liquid tears at a tension and leaves a cavity (strength=1000000.0, ambient_pressure=101325.0, cavity='mass-conserving')
   off  shear-limit         wall shear stress bounded by a limiting shear strength
@@ -54,28 +54,35 @@ if TYPE_CHECKING:
     from .contact.effects.elasticity import HalfSpace, LayeredHalfSpace
     from .contact.effects.film import FilmMeniscus
     from .contact.effects.friction import FrictionCoupling, FrictionTraction
+    from .contact.effects.hardness_rules import (
+        ConstantHardness,
+        ContinuousHardness,
+        HardnessMap,
+        LiteralHardness,
+        MaterialHardness,
+    )
     from .contact.effects.island_bridges import IslandBridges
     from .contact.effects.partial_slip import PartialSlip
     from .contact.effects.plastic_history import PlasticHistory
-    from .contact.effects.plasticity import HardnessLimit, HardnessMap
+    from .contact.effects.plasticity import HardnessLimit
     from .contact.effects.stress import SubsurfaceStress
     from .contact.plan import ContactPlan
     from .contact.press import press
     from .contact.result import ContactResult
     from .contact.solve import solve
-    from .effects import EFFECTS, register_effect
     from .errors import (
         ContactkitError,
         ConvergenceError,
         DescriptionError,
         InfeasibleError,
-        InstalledEffectWarning,
+        InstalledKindWarning,
         NotSimulatedError,
         PlanError,
         ValidityWarning,
     )
     from .files.results import load_result, save_result
     from .files.scenes import load_liquid, load_material, load_scene, save_scene
+    from .kinds import EFFECTS, KINDS, register
     from .liquids.liquid import Liquid
     from .planning import plan
     from .scene.asperity_population import AsperityPopulation
@@ -117,17 +124,12 @@ if TYPE_CHECKING:
     from .scene.scenes import ContactScene, SeparationScene, SlidingScene
     from .scene.surfaces import Flat, Paraboloid, Sphere, Wave
     from .scene.window import Window
+    from .separation.effects.adhesion import AdhesiveContact, VanDerWaalsForce
+    from .separation.effects.asperities import AsperityMenisci
     from .separation.effects.base import FilmStatus, LimitKind
-    from .separation.effects.registry import (
-        AdhesiveContact,
-        AsperityMenisci,
-        MeniscusForce,
-        Rupture,
-        ShearLimit,
-        TensionLimit,
-        VanDerWaalsForce,
-        ViscousForce,
-    )
+    from .separation.effects.meniscus import AsPublished, MeniscusForce
+    from .separation.effects.rupture import Rupture
+    from .separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce
     from .separation.motion.advance import advance
     from .separation.motion.state import MotionState, Pull
     from .separation.plan import Plan
@@ -150,9 +152,10 @@ if TYPE_CHECKING:
 _HOMES = {
     "Accuracy": "accuracy",
     "Adhesion": "contact.effects.adhesion",
-    "AdhesiveContact": "separation.effects.registry",
+    "AdhesiveContact": "separation.effects.adhesion",
     "Approach": "scene.loading",
-    "AsperityMenisci": "separation.effects.registry",
+    "AsPublished": "separation.effects.meniscus",
+    "AsperityMenisci": "separation.effects.asperities",
     "AsperityPopulation": "scene.asperity_population",
     "Body": "scene.interface",
     "CombinedSurface": "scene.rough_surfaces",
@@ -167,7 +170,7 @@ _HOMES = {
     "Difference": "scene.planforms",
     "Disc": "scene.planforms",
     "DugdaleAttraction": "contact.effects.attraction_laws",
-    "EFFECTS": "effects",
+    "EFFECTS": "kinds",
     "Ellipse": "scene.planforms",
     "ExponentialAttraction": "contact.effects.attraction_laws",
     "FilmMeniscus": "contact.effects.film",
@@ -178,17 +181,22 @@ _HOMES = {
     "GaussianRoughness": "scene.rough_surfaces",
     "HalfSpace": "contact.effects.elasticity",
     "HardnessLimit": "contact.effects.plasticity",
-    "HardnessMap": "contact.effects.plasticity",
+    "ConstantHardness": "contact.effects.hardness_rules",
+    "ContinuousHardness": "contact.effects.hardness_rules",
+    "LiteralHardness": "contact.effects.hardness_rules",
+    "MaterialHardness": "contact.effects.hardness_rules",
+    "HardnessMap": "contact.effects.hardness_rules",
     "Heights": "scene.rough_surfaces",
     "Image": "scene.planforms",
     "ImposedForce": "scene.loading",
     "ImposedSpeed": "scene.loading",
     "ImposedTime": "scene.loading",
     "InfeasibleError": "errors",
-    "InstalledEffectWarning": "errors",
+    "InstalledKindWarning": "errors",
     "Interface": "scene.interface",
     "Intersection": "scene.planforms",
     "IslandBridges": "contact.effects.island_bridges",
+    "KINDS": "kinds",
     "Layer": "scene.materials",
     "LayeredHalfSpace": "contact.effects.elasticity",
     "LennardJonesAttraction": "contact.effects.attraction_laws",
@@ -197,7 +205,7 @@ _HOMES = {
     "Material": "scene.materials",
     "Measured": "scene.rough_surfaces",
     "Meniscus": "scene.meniscus",
-    "MeniscusForce": "separation.effects.registry",
+    "MeniscusForce": "separation.effects.meniscus",
     "MotionState": "separation.motion.state",
     "NotSimulatedError": "errors",
     "PUBLISHED": "as_published.lookup",
@@ -215,13 +223,13 @@ _HOMES = {
     "Rectangle": "scene.planforms",
     "RigidBase": "scene.materials",
     "Ring": "scene.planforms",
-    "Rupture": "separation.effects.registry",
+    "Rupture": "separation.effects.rupture",
     "SealedHole": "scene.faces",
     "Sector": "scene.planforms",
     "SelfAffineRoughness": "scene.rough_surfaces",
     "SeparationResult": "separation.results",
     "SeparationScene": "scene.scenes",
-    "ShearLimit": "separation.effects.registry",
+    "ShearLimit": "separation.effects.viscous",
     "Sliding": "scene.loading",
     "SlidingPlan": "separation.sliding.plan",
     "SlidingResult": "separation.sliding.result",
@@ -232,13 +240,13 @@ _HOMES = {
     "StudyFile": "studies.study_file",
     "SubsurfaceStress": "contact.effects.stress",
     "TangentialStep": "scene.loading",
-    "TensionLimit": "separation.effects.registry",
+    "TensionLimit": "separation.effects.viscous",
     "Union": "scene.planforms",
     "ValidityWarning": "errors",
-    "VanDerWaalsForce": "separation.effects.registry",
+    "VanDerWaalsForce": "separation.effects.adhesion",
     "Vent": "scene.faces",
     "Vibration": "scene.loading",
-    "ViscousForce": "separation.effects.registry",
+    "ViscousForce": "separation.effects.viscous",
     "Wave": "scene.surfaces",
     "Window": "scene.window",
     "adhesion_curve": "analyses.adhesion_curve",
@@ -263,7 +271,7 @@ _HOMES = {
     "press": "contact.press",
     "published": "as_published.lookup",
     "pull_off_curve": "analyses.pull_off",
-    "register_effect": "effects",
+    "register": "kinds",
     "save_result": "files.results",
     "save_scene": "files.scenes",
     "sensitivity": "studies.sensitivity",
@@ -280,15 +288,18 @@ __all__ = [
     "Adhesion",
     "AdhesiveContact",
     "Approach",
+    "AsPublished",
     "AsperityMenisci",
     "AsperityPopulation",
     "Body",
     "CombinedSurface",
+    "ConstantHardness",
     "ContactAngleHysteresis",
     "ContactPlan",
     "ContactResult",
     "ContactScene",
     "ContactkitError",
+    "ContinuousHardness",
     "ConvergenceError",
     "CouetteForce",
     "DescriptionError",
@@ -313,16 +324,19 @@ __all__ = [
     "ImposedSpeed",
     "ImposedTime",
     "InfeasibleError",
-    "InstalledEffectWarning",
+    "InstalledKindWarning",
     "Interface",
     "Intersection",
     "IslandBridges",
+    "KINDS",
     "Layer",
     "LayeredHalfSpace",
     "LennardJonesAttraction",
     "LimitKind",
     "Liquid",
+    "LiteralHardness",
     "Material",
+    "MaterialHardness",
     "Measured",
     "Meniscus",
     "MeniscusForce",
@@ -391,7 +405,7 @@ __all__ = [
     "press",
     "published",
     "pull_off_curve",
-    "register_effect",
+    "register",
     "save_result",
     "save_scene",
     "sensitivity",

@@ -45,6 +45,12 @@ def _points(owner: object, attribute: Attribute[Any], value: Any) -> None:
     check_limit("POINTS", value, f"points = {value}", "Accuracy.points")
 
 
+_READ_BY = {
+    "separation": ("time_rtol", "points", "curve_rtol", "max_steps", "film_rtol"),
+    "contact": ("grid", "rtol", "method", "max_iterations"),
+}
+
+
 @frozen(kw_only=True)
 class Accuracy(Described):
     """Numerical settings of a plan; the first five apply to separation, the others to contact.
@@ -123,6 +129,21 @@ class Accuracy(Described):
     def outer_rtol(self) -> float:
         """Tolerance of the outer iterations, relative to the quantity they change [-]."""
         return min(100.0 * self.rtol, 0.1)
+
+    def foreign(self, kind: Literal["contact", "separation"]) -> str:
+        """Name of a setting that scenes of a kind do not read and that no level has; or empty.
+
+        A level, such as `draft`, sets both kinds, and fits either.
+        """
+        levels = (Accuracy.draft, Accuracy.standard, Accuracy.reference)
+        return next(
+            (
+                name
+                for name in _READ_BY["separation" if kind == "contact" else "contact"]
+                if all(getattr(self, name) != getattr(level, name) for level in levels)
+            ),
+            "",
+        )
 
     draft: ClassVar[Accuracy]
     standard: ClassVar[Accuracy]

@@ -10,7 +10,7 @@ __all__ = [
     "ConvergenceError",
     "DescriptionError",
     "InfeasibleError",
-    "InstalledEffectWarning",
+    "InstalledKindWarning",
     "MissingExtraError",
     "NotSimulatedError",
     "PlanError",
@@ -141,5 +141,5 @@ class ValidityWarning(UserWarning):
     """A model was used outside the range it was derived for."""
 
 
-class InstalledEffectWarning(UserWarning):
-    """An effect that another package declares cannot be used; the message states why."""
+class InstalledKindWarning(UserWarning):
+    """A kind that another package declares cannot be used; the message states why."""

@@ -102,7 +102,7 @@ def plan(scene: Scene, accuracy: Accuracy | None = None) -> ScenePlan:
         If the scene has no answer.
     """
     check_scene(scene, tuple(_KINDS))
-    check_accuracy(accuracy)
+    check_accuracy(accuracy, scene)
     made: ScenePlan = _function(_kind(type(scene)).plan)(scene, accuracy)
     return made
 

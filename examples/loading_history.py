@@ -31,7 +31,7 @@ def main(out: Path) -> float:
         loading=ck.Pressing(force=FORCE),
         effects=(
             ck.HalfSpace(),
-            ck.HardnessLimit(rule="constant", hardness=0.6 * hertz),
+            ck.HardnessLimit(rule=ck.ConstantHardness(hardness=0.6 * hertz)),
             ck.PlasticHistory(forces=(0.5 * FORCE, 0.0, FORCE, 0.0), steps=12),
         ),
     )

@@ -1,7 +1,7 @@
 """A spool with a hole through its end face: release over its size, for an oil that never tears.
 
-The valve of the fuel injector pulls a spool whose end is a ring, vented in the middle: a `Flat` that
-has a `Ring` for its planform. Beside it the pressure on such a face with four more vents, from
+The valve of the fuel injector pulls a spool whose end is a ring, vented in the middle: a `Flat`
+whose planform is a `Ring`. Beside it the pressure on such a face with four more vents, from
 Reynolds' equation.
 """
 

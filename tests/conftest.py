@@ -59,7 +59,7 @@ def release_scene(release_cases):
             "contact_angle_upper": case["theta"],
         }
         if effects is None:
-            effects = (ck.MeniscusForce(profile="as-published", radius="disc"), ck.ViscousForce())
+            effects = (ck.MeniscusForce(profile=ck.AsPublished(radius="disc")), ck.ViscousForce())
             if case["dp_cav"]:
                 effects += (ck.TensionLimit(strength=case["dp_cav"], cavity="truncated"),)
         imposed = {

@@ -12,8 +12,8 @@ from ..errors import DescriptionError, InfeasibleError, PlanError
 from ..scene.curve import Curve, Shown
 from ..scene.plan import check_scene
 from ..scene.scenes import SeparationScene
+from ..separation.effects.adhesion import AdhesiveContact
 from ..separation.effects.prepared import checked_liquid, prepare_scene
-from ..separation.effects.registry import AdhesiveContact
 from ..units import si
 
 if TYPE_CHECKING:

@@ -15,7 +15,8 @@ from ..numerics.roots import bracketed_root
 from ..scene.curve import Curve
 from ..scene.plan import check_scene
 from ..scene.scenes import SeparationScene
-from ..separation.effects.registry import MeniscusForce, ViscousForce
+from ..separation.effects.meniscus import MeniscusForce
+from ..separation.effects.viscous import ViscousForce
 from ..units import si
 from .division_laws import SOURCES, DivisionLaw, Name, law_of
 
@@ -149,7 +150,10 @@ def divide_meniscus(
         Numbers of menisci of the curves. None: up to 61 from 1 to the maximum stable number, in
         geometric progression.
     law : {"exact", "arc", "as-published"}, optional
-        Law of both forces and of rupture. None: the profile of the scene's `MeniscusForce`.
+        Law of both forces and of rupture. None: the profile of the scene's `MeniscusForce`. As
+        published, x_n0 is the contact circle of the undivided film that the printed effects of the
+        scene take; where the law is asked for by name and the effects are not printed, that of
+        the area, volume over gap.
 
     Returns
     -------
@@ -207,7 +211,7 @@ def divide_meniscus(
         best,
         force,
         made.limit(volumes),
-        made.radius(volumes),
+        made.radius(volumes, stable.astype(float)),
         None if made.meniscus is None else made.meniscus(volumes, stable.astype(float)),
         None if made.viscous is None else made.viscous(volumes, stable.astype(float)),
     )

@@ -12,8 +12,9 @@ from ..errors import InfeasibleError, NotSimulatedError, PlanError
 from ..lubrication import squeeze_film as squeeze
 from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime, SeparationLoading
 from ..separation.effects.as_published import mixed
+from ..separation.effects.meniscus import MeniscusForce
 from ..separation.effects.prepared import checked_liquid
-from ..separation.effects.registry import MeniscusForce, ViscousForce
+from ..separation.effects.viscous import ViscousForce
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -46,7 +47,7 @@ class DivisionLaw(NamedTuple):
     gap: float
     meniscus: Callable[[Floats, Floats], Floats] | None
     viscous: Callable[[Floats, Floats], Floats] | None
-    radius: Callable[[Floats], Floats]
+    radius: Callable[[Floats, Floats], Floats]
     limit: Callable[[Floats], Floats]
 
     def total(self, volume: Floats, number: Floats) -> Floats:
@@ -82,7 +83,7 @@ def _own_law(scene: SeparationScene) -> Name:
         raise PlanError(both)
     meniscus, viscous = scene.effect(MeniscusForce), scene.effect(ViscousForce)
     if meniscus is not None:
-        return meniscus.profile
+        return meniscus.form
     is_printed = viscous is not None and viscous.closure == "as-published"
     return "as-published" if is_printed else "exact"
 
@@ -137,21 +138,52 @@ def _limits(scene: SeparationScene, name: str, volume: float) -> Callable[[Float
     return lambda v: np.asarray(one * np.cbrt(v / volume))
 
 
+def _printed_radius(scene: SeparationScene) -> Callable[[Floats, Floats], Floats]:
+    """Radius x_n0/sqrt(N) [m] of one of N menisci in Eqs. (3.33) and (3.34).
+
+    x_n0 is that of the undivided film: the contact circle of the arc where the effects of the scene
+    are the printed ones, which then take the same at N = 1; else that of its area, volume over gap.
+    """
+    from ..capillary.arc import flat as arc_flat
+
+    gap, meniscus, viscous = (
+        scene.loading.initial_gap,
+        scene.effect(MeniscusForce),
+        scene.effect(ViscousForce),
+    )
+    is_printed = any(
+        effect is not None and effect.takes_printed() for effect in (meniscus, viscous)
+    )
+    is_disc = meniscus is not None and meniscus.printed.radius == "disc"
+    shape = arc_flat.shape(*_angles(scene))
+
+    def radius(volume: Floats, number: Floats) -> Floats:
+        whole = volume * number
+        if not is_printed or is_disc:
+            return np.asarray(squeeze.disc_radius(whole, gap) / np.sqrt(number))
+        found = np.asarray(arc_flat.contact_radius(shape, gap, whole))
+        if meniscus is not None and meniscus.printed.pulled == "upper":
+            found = np.asarray(arc_flat.upper_contact_radius(shape, gap, found))
+        return found / np.sqrt(number)
+
+    return radius
+
+
 def _meniscus(
     scene: SeparationScene, name: str, liquid: LiquidState
-) -> tuple[Callable[[Floats, Floats], Floats], Callable[[Floats], Floats]]:
+) -> tuple[Callable[[Floats, Floats], Floats], Callable[[Floats, Floats], Floats]]:
     gap, angles = scene.loading.initial_gap, _angles(scene)
     if name == "as-published":
         effect = scene.effect(MeniscusForce)
-        pulled = effect.pulled if effect is not None else "lower"
+        pulled = effect.printed.pulled if effect is not None else "lower"
+        one = _printed_radius(scene)
         from ..as_published.printed.common import meniscus_divided_3_33
 
         def printed(volume: Floats, number: Floats) -> Floats:
-            whole = squeeze.disc_radius(volume * number, gap)
-            tension = liquid.surface_tension
+            whole, tension = one(volume, number) * np.sqrt(number), liquid.surface_tension
             return np.asarray(meniscus_divided_3_33(whole, gap, tension, *angles, number, pulled))
 
-        return printed, lambda volume: np.asarray(squeeze.disc_radius(volume, gap))
+        return printed, one
     if name == "arc":
         from ..capillary.arc.bridge import arc_bridge as bridge
     else:
@@ -160,7 +192,7 @@ def _meniscus(
     def force(volume: Floats, number: Floats) -> Floats:
         return np.asarray(number * liquid.surface_tension * bridge(gap, volume, *angles).force)
 
-    def radius(volume: Floats) -> Floats:
+    def radius(volume: Floats, number: Floats) -> Floats:
         state = bridge(gap, volume, *angles)
         return np.maximum(state.radius_lower, state.radius_upper)
 
@@ -178,11 +210,15 @@ def _viscous(
     loading, viscosity = scene.loading, liquid.viscosity
     start = loading.initial_gap
     constant = effect.closure != "volume-conserving" or name == "as-published"
+    printed = _printed_radius(scene) if name == "as-published" else None
 
     def force(volume: Floats, number: Floats) -> Floats:
         end = np.minimum(limit(volume), loading.final_gap)
         if constant:  # at constant radius, as printed
-            radius = squeeze.disc_radius(volume, start)
+            if printed is not None:
+                radius = printed(volume, number)
+            else:
+                radius = np.asarray(squeeze.disc_radius(volume, start))
             impulse = squeeze.disc_impulse_flooded(radius, start, end, viscosity)
         else:
             impulse = squeeze.disc_impulse_conserved(volume, start, end, viscosity)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..accuracy import Accuracy
-from ..contact.grid import grid_of, realise
+from ..contact.grid import grid_of
 from ..scene.interface import Body, Interface
 from ..scene.loading import Pressing
 from ..scene.scenes import ContactScene
-from ..scene.surfaces import Surface
+from ..scene.surfaces import Surface, realise
 from ..scene.window import Window
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from .subsurface import stress_below
 __all__ = ["LoadFor", "load_for_contact_fraction", "load_of_first_yield"]
 
 _FEWEST, _MOST = 1e-12, 1.0  # mean pressure over E*, between which loads are looked for
-_SOLVES = 60
+_SOLVES = 60  # contacts at most: a bracket takes 8, halving it to 1e-12 another 41
 
 
 class LoadFor(NamedTuple):

@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from ..contact.effects.registry import CONTACT_EFFECTS
 from ..errors import DescriptionError, nearest
 from ..files.structure import library_names, load_liquid, load_material
+from ..kinds import CONTACT_EFFECTS, SEPARATION_EFFECTS, SLIDING_EFFECTS
 from ..models.library import bundled_scenes
-from ..separation.effects.registry import SEPARATION_EFFECTS
-from ..separation.sliding.effects import SLIDING_EFFECTS
 from ..units import quantity_text
 from .scenes import open_scene
 

@@ -12,7 +12,8 @@ from attrs import evolve
 
 from ..accuracy import Accuracy
 from ..contact.effects.base import Compliance, PressureBound
-from ..contact.effects.plasticity import HardnessLimit, HardnessMap
+from ..contact.effects.hardness_rules import ConstantHardness, HardnessMap
+from ..contact.effects.plasticity import HardnessLimit
 from ..errors import ConvergenceError, DescriptionError, InfeasibleError
 from ..export.report import Report
 from ..planning import plan
@@ -160,11 +161,11 @@ def solver_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) ->
 def _frozen(scene: ContactScene, accuracy: Accuracy) -> tuple[ContactScene, Accuracy]:
     """The same contact with its hardness as it comes out, so that each run is one solve."""
     limit = scene.effect(HardnessLimit)
-    if limit is None or limit.rule == "constant":
+    if limit is None or isinstance(limit.rule, ConstantHardness):
         return scene, accuracy
     found = _solved(scene, evolve(accuracy, rtol=1e-6)).of(HardnessLimit).hardness
     hardness = found if isinstance(found, float) else HardnessMap(found)
-    constant = HardnessLimit(rule="constant", hardness=hardness)
+    constant = HardnessLimit(rule=ConstantHardness(hardness=hardness))
     kept = tuple(constant if e is limit else e for e in scene.effects)
     return evolve(scene, effects=kept), accuracy
 

@@ -14,7 +14,9 @@ from ..accuracy import Accuracy
 from ..errors import PlanError, ValidityWarning
 from ..scene.loading import ImposedForce
 from ..scene.scenes import SeparationScene
-from ..separation.effects.registry import MeniscusForce, Rupture, SeparationEffect
+from ..separation.effects.base import SeparationEffect
+from ..separation.effects.meniscus import AsPublished, MeniscusForce
+from ..separation.effects.rupture import Rupture
 from ..separation.plan import plan
 from ..work_precision import Outcome, Setting, WorkPrecision, sweep
 
@@ -102,14 +104,14 @@ def with_effect(scene: SeparationScene, new: SeparationEffect) -> SeparationScen
 
 def other_menisci(scene: SeparationScene) -> dict[str, SeparationScene]:
     """Scenes with the models of the meniscus that are cheaper than the one of this scene."""
-    profile = next((e.profile for e in scene.effects if isinstance(e, MeniscusForce)), None)
+    profile = next((e.form for e in scene.effects if isinstance(e, MeniscusForce)), None)
     found = {}
     if profile == "exact":
         found["meniscus as an arc"] = with_effect(scene, MeniscusForce(profile="arc"))
     if profile in ("exact", "arc") and scene.interface.is_flat:
         # The disc is what the law of the FMUs has.
-        printed = with_effect(scene, MeniscusForce(profile="as-published", radius="disc"))
-        if any(isinstance(e, Rupture) and e.gap is None for e in scene.effects):
-            printed = with_effect(printed, Rupture(criterion="zero-neck"))  # its own, never mixed
+        printed = with_effect(scene, MeniscusForce(profile=AsPublished(radius="disc")))
+        if any(isinstance(e, Rupture) and isinstance(e.gap, str) for e in scene.effects):
+            printed = with_effect(printed, Rupture(gap="zero-neck"))  # its own, never mixed
         found["published meniscus, Eq. (3.11)"] = printed
     return found

@@ -252,6 +252,9 @@ def mean_tail(a: float, b: float) -> float:
     >>> round(mean_tail(-1.0, 1.0), 12), mean_tail(-60.0, -50.0)
     (0.5, 1.0)
     """
+    # Q falls over 1/(1 + |a|). Within that Gauss' rule is exact to 6e-14, where the difference of
+    # two excesses loses up to five digits; beyond, the difference is as good, and no rule is
+    # needed.
     width = b - a
     if width * (1.0 + abs(a)) < 1.0:
         nodes, weights = gauss_legendre(10)
@@ -263,6 +266,8 @@ def mean_tail(a: float, b: float) -> float:
 
 def _excess(t: float) -> float:
     """Mean of (Z - t) where it is positive, Z standard normal: the integral of Q from t on."""
+    # phi - t Q cancels to 1/t^2 of it: 2e-12 at 12, 1e-11 at 20. The asymptotic series has terms up
+    # to (2k - 1)!!/t^2k: its twelve leave 1e-13 at 12, 6e-12 at 10.
     if t < 12.0:
         return normal_density(t) - t * normal_tail(t)
     term, total, inverse = 1.0, 0.0, 1.0 / (t * t)

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
-
-from attrs import asdict
 
 from ..scene.loading import Approach, ContactLoading, Pressing
 from ..scene.scenes import ContactScene
@@ -15,26 +12,7 @@ from .result import ContactResult
 from .solve import solve_unwarned
 from .solver.warm_start import MAX_SOLUTIONS
 
-__all__ = ["ContactChain", "Imposed", "downwards", "imposed", "loading_of"]
-
-
-class Imposed(NamedTuple):
-    """Name of the imposed quantity of a loading, and its value [Pa], [N] or [m]."""
-
-    name: str
-    value: float
-
-
-def imposed(loading: ContactLoading) -> Imposed:
-    """Return what a loading imposes.
-
-    Examples
-    --------
-    >>> imposed(Pressing(force=2.0))
-    Imposed(name='force', value=2.0)
-    """
-    given = asdict(loading)
-    return next(Imposed(name, value) for name, value in given.items() if value is not None)
+__all__ = ["ContactChain", "downwards", "loading_of"]
 
 
 def loading_of(name: str, value: float) -> ContactLoading:

@@ -11,7 +11,8 @@ from ..errors import DescriptionError
 from ..scene.interface import Body, Interface
 from ..scene.rough_surfaces import Heights
 from ..scene.window import Window
-from .effects.plasticity import HardnessLimit, HardnessMap
+from .effects.hardness_rules import ConstantHardness, HardnessMap
+from .effects.plasticity import HardnessLimit
 from .plan import ContactPlan, unprepared_plan
 
 if TYPE_CHECKING:
@@ -85,7 +86,9 @@ def largest_factor(plan: ContactPlan, fewest: int) -> int:
 
 def _thinned(effect: Any, taken: slice) -> Any:
     """Take an effect with the map that it may hold on the pixels of the companion."""
-    if isinstance(effect, HardnessLimit) and isinstance(effect.hardness, HardnessMap):
-        values = effect.hardness.values[taken, taken]
-        return evolve(effect, hardness=HardnessMap(values))
+    if isinstance(effect, HardnessLimit) and isinstance(effect.rule, ConstantHardness):
+        given = effect.rule.hardness
+        if isinstance(given, HardnessMap):
+            rule = ConstantHardness(hardness=HardnessMap(given.values[taken, taken]))
+            return evolve(effect, rule=rule)
     return effect

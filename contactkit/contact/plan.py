@@ -10,10 +10,12 @@ from attrs import Factory, evolve, field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, InfeasibleError, PlanError
+from ..kinds import CONTACT_EFFECTS
 from ..liquids.liquid import LiquidState
-from ..scene.effect import EffectRegistry, check_listed
+from ..registry import Registry
+from ..scene.effect import check_listed
 from ..scene.figures import Drawn
-from ..scene.loading import Approach, ContactLoading, Pressing
+from ..scene.loading import ContactLoading
 from ..scene.plan import ScenePlan
 from ..scene.scenes import ContactScene
 from ..scene.surfaces import Flat
@@ -30,7 +32,6 @@ from .effects.base import (
     effects_of,
 )
 from .effects.friction import FrictionTraction
-from .effects.registry import CONTACT_EFFECTS
 from .grid import grid_of, holes_of
 from .prepared import Once, PreparedInterface, interface_key
 
@@ -95,7 +96,7 @@ class ContactPlan(Drawn, ScenePlan):
         Properties of the liquid at the temperature of the scene; None where no effect needs them.
     """
 
-    known_effects: ClassVar[EffectRegistry[ContactEffect[Any]]] = CONTACT_EFFECTS
+    known_effects: ClassVar[Registry[Any]] = CONTACT_EFFECTS
 
     scene: ContactScene
     accuracy: Accuracy
@@ -164,10 +165,8 @@ class ContactPlan(Drawn, ScenePlan):
     @property
     def rigid_approach(self) -> float | None:
         """Imposed approach of the zero plane of the heights [m]; None if a load is imposed."""
-        loading = self.scene.loading
-        if not isinstance(loading, Approach):
-            return None
-        return self.prepared.first_touch + loading.approach
+        approach = self.scene.loading.imposed_approach
+        return None if approach is None else self.prepared.first_touch + approach
 
     def has_interface_of(self, other: ContactPlan) -> bool:
         """Whether another plan is of the same surfaces, compliance and grid."""
@@ -376,8 +375,8 @@ def _check_size(made: ContactPlan) -> None:
         for stack in made.scene.interface.stacks
     )
     if load is not None and not load <= _LARGEST * modulus:
-        name, value, unit = _imposed(loading, load)
-        factor = made.grid.area if unit == "N" else 1.0
+        name, value, unit = loading.quantity
+        factor = value / load  # from a mean pressure to what imposes it
         raise DescriptionError(
             f"loading.{name}",
             value,
@@ -388,30 +387,23 @@ def _check_size(made: ContactPlan) -> None:
             "young_modulus",
         )
     side = max(n * size for n, size in zip(made.grid.shape, made.grid.pixel_size, strict=True))
-    if isinstance(loading, Approach) and loading.approach > _LARGEST * side:
+    if (approach := loading.imposed_approach or 0.0) > _LARGEST * side:
         raise DescriptionError(
             "loading.approach",
-            loading.approach,
+            approach,
             f"be at most {_LARGEST * side:.3g}, {_LARGEST:g} times the window",
             unit="m",
             hint="linear elasticity ends far below; check the units of approach and window",
         )
 
 
-def _imposed(loading: ContactLoading, load: float) -> tuple[str, float, str]:
-    """Name, value and unit of the field that imposes a load [Pa]."""
-    if isinstance(loading, Pressing) and loading.force is not None:
-        return "force", loading.force, "N"
-    return "pressure", load, "Pa"
-
-
 def _check_load(made: ContactPlan) -> None:
     """Refuse a load above hardness x area, a film that adds to no load, a pull nothing carries."""
     load, scene = made.mean_pressure, made.scene
     if load is not None and load < 0.0 and scene.effect(Attraction) is None:
-        name, value, unit = _imposed(scene.loading, load)
+        name, value, unit = scene.loading.quantity
         raise DescriptionError(
-            f"Pressing.{name}",
+            f"{type(scene.loading).__name__}.{name}",
             value,
             "be zero or positive",
             unit=unit,
@@ -436,17 +428,17 @@ def _check_load(made: ContactPlan) -> None:
 
 def _check_approach(made: ContactPlan) -> None:
     """Refuse an approach at which no load closes a periodic window further."""
-    loading = made.scene.loading
-    if not isinstance(loading, Approach) or made.hardness is not None or not made.grid.periodic:
+    approach = made.scene.loading.imposed_approach
+    if approach is None or made.hardness is not None or not made.grid.periodic:
         return
     interface = made.prepared
     if interface.holes is not None or interface.solver.uniform_compliance:
         return  # the surface can rise as far as it must, or a base lets its mean plane sink
     heights = made.heights
     limit = float(heights.max() - heights.mean())
-    if loading.approach >= limit:
+    if approach >= limit:
         raise InfeasibleError(
-            f"an approach of {loading.approach:.6g} m reaches the mean plane of the heights, "
+            f"an approach of {approach:.6g} m reaches the mean plane of the heights, "
             f"{limit:.6g} m from first touch, where the gap of a periodic window is closed under "
             "any load; impose pressure or force, or use Window(periodic=False)"
         )

@@ -8,7 +8,6 @@ import numpy as np
 from attrs import evolve
 
 from ..errors import NotSimulatedError
-from ..scene.loading import Approach
 from ..scene.rough_surfaces import Heights
 from .effects.base import Contact, FixedHardness, HardnessLaw
 from .effects.plastic_history import PlasticHistory, PlasticHistoryPart
@@ -192,7 +191,7 @@ def _targets(plan: ContactPlan, history: PlasticHistory) -> list[Target]:
     values, before = list[float](), 0.0
     for loading in (*history.loadings(), plan.scene.loading):
         pressure = loading.mean_pressure(area)
-        after = loading.approach if isinstance(loading, Approach) else pressure or 0.0
+        after = (loading.imposed_approach if pressure is None else pressure) or 0.0
         values += [before + (after - before) * (i / history.steps) for i in range(1, history.steps)]
         values.append(after)
         before = after

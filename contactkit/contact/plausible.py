@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..scene.loading import Pressing
 from ..validity import ValidityNumber
 from .effects.base import Attraction, Contact
 from .effects.elasticity import contact_modulus
@@ -50,7 +49,7 @@ def check_sizes(contact: Contact, *, even: bool) -> tuple[ValidityNumber, ...]:
     """
     found = [_modulus(contact), _window(contact)]
     loading = contact.scene.loading
-    is_pressed = isinstance(loading, Pressing) and float(contact.pressure.sum()) > 0.0
+    is_pressed = loading.imposed_approach is None and float(contact.pressure.sum()) > 0.0
     # A load on an isolated window is one over no area, and even faces may rest on each other.
     pulled = contact.scene.effect(Attraction) is not None
     if is_pressed and contact.grid.edges and not pulled and not even:

@@ -20,7 +20,8 @@ from ..units import parse_quantity
 from ..validity import warn
 from .effects.base import ContactEffect
 from .effects.elasticity import HalfSpace, LayeredHalfSpace
-from .effects.plasticity import HardnessLimit, HardnessMap
+from .effects.hardness_rules import ConstantHardness, HardnessMap
+from .effects.plasticity import HardnessLimit
 from .plan import plan_contact
 from .result import ContactResult
 from .solve import solve_unwarned
@@ -108,7 +109,7 @@ def press(
     if hardness is not None:
         is_map = np.ndim(hardness) > 0
         given = HardnessMap(hardness) if is_map else _number(hardness, "Pa", "hardness")
-        effects.append(HardnessLimit(rule="constant", hardness=given))
+        effects.append(HardnessLimit(rule=ConstantHardness(hardness=given)))
     surface = _surface(heights, pixel_size)
     scene = ContactScene(
         interface=Interface(lower=Body(solid=stack), upper=Body(surface=surface)),

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..scene.rough_surfaces import CombinedSurface
 from ..scene.scales import Scale, Scales, scales_of
 from .grid import holes_of
 
@@ -14,7 +13,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..scene.scenes import ContactScene
-    from ..scene.surfaces import Surface
 
 __all__ = ["contact_scales"]
 
@@ -42,7 +40,7 @@ def contact_scales(scene: ContactScene, heights: NDArray[np.float64], area: floa
     modulus = 1.0 / sum(
         1.0 / stack.materials[-1].plane_strain_modulus for stack in scene.interface.stacks
     )
-    curvature = sum(_curvature(body.surface) for body in scene.interface.bodies)
+    curvature = sum(body.surface.body_curvature for body in scene.interface.bodies)
     if curvature > 0.0:
         length, area = Scale(1.0 / curvature, "R", "relative radius of the bodies"), curvature**-2.0
         square, text = "R^2", "square of the relative radius"
@@ -64,10 +62,3 @@ def contact_scales(scene: ContactScene, heights: NDArray[np.float64], area: floa
             ),
         }
     )
-
-
-def _curvature(surface: Surface) -> float:
-    """Curvature of a round body [1/m], also under roughness; 0 for others."""
-    if isinstance(surface, CombinedSurface):
-        return sum(_curvature(part) for part in surface.parts)
-    return surface.curvature or 0.0

@@ -216,9 +216,9 @@ def _press(run: _Run, effect: PartialSlip) -> _Pressed:
     while True:
         near = _pressed(run, run.targets(steps))
         error = _step_error(near, steps, coarse, _FEWEST)
-        if near.solved.problem or error <= effect.pressing_rtol or steps >= _MOST_STEPS:
+        if near.solved.problem or error <= effect.pressing_error or steps >= _MOST_STEPS:
             return _Pressed(near, steps, error)
-        wanted = math.ceil(_SPARE * steps * error / effect.pressing_rtol)
+        wanted = math.ceil(_SPARE * steps * error / effect.pressing_error)
         steps = min(wanted, _MOST_STEPS)
 
 

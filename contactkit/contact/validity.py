@@ -11,7 +11,6 @@ import numpy as np
 from ..validity import ValidityNumber
 from .effects.base import Contact, ContactEffect, effects_of
 from .effects.elasticity import contact_modulus
-from .grid import short_waves
 from .pixel_edges import pixel_edges
 from .plausible import FLATTEST, LIGHTEST_PEAK, check_sizes, is_even
 
@@ -70,7 +69,7 @@ def check_contact(
 
 def _pixels_per_wave(contact: Contact) -> ValidityNumber:
     bodies = contact.scene.interface.bodies
-    waves = [wave for body in bodies for wave in short_waves(body.surface, contact.grid)]
+    waves = [wave for body in bodies for wave in body.surface.shortest_waves(contact.grid)]
     shortest = min(waves, key=lambda wave: wave.length / wave.pixel, default=None)
     return ValidityNumber(
         name="pixels per shortest wave",

@@ -53,8 +53,9 @@ Array = NDArray[np.float64]
 # Wavenumbers per block: some thirty arrays of this length stay in the cache. 1024 take 2.5 times
 # (calls), all of half a million at once twice as long; 4096 to 65536 the same.
 BLOCK = 8192
-# From here on it pays to sort the wavenumbers, most of which occur twice: sorting takes about the
-# time of the recursion over three layers.
+# From here on it pays to sort the wavenumbers, most of which occur twice. On a square map of 400
+# pixels it does from 3 layers on (16 against 19 ms, with 8 layers 23 against 45); where the sides
+# of a map differ fewer wavenumbers are equal.
 MANY_LAYERS = 6
 
 

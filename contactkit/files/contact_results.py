@@ -11,12 +11,12 @@ import numpy as np
 
 from ..accuracy import Accuracy
 from ..contact.effects.base import Attraction, Contact
-from ..contact.effects.registry import CONTACT_EFFECTS
 from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
 from ..contact.validity import check_contact
 from ..contact.work import ContactWork
 from ..frozen import FrozenDict
+from ..kinds import CONTACT_EFFECTS
 from ..scene.scenes import ContactScene
 from ..scene.window import Grid
 from .structure import structure, unstructure, with_arrays

@@ -23,7 +23,7 @@ from ..scene.scenes import SeparationScene, SlidingScene
 from ..separation.curve_result import Work
 from ..separation.motion.state import restored_state
 from ..separation.plan import Plan, plan
-from ..separation.results import SeparationResult, extremes_of
+from ..separation.results import SeparationResult, extremes_of, pulls_of_cycles
 from ..separation.sliding.plan import plan_sliding
 from ..separation.sliding.result import SlidingResult
 from ..separation.sliding.run import check_sliding
@@ -227,6 +227,9 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
         extremes = extremes_of(made, columns)
         if state is not None:
             extremes = {n: v for n, v in extremes.items() if n == "peak_repulsion"}
+        if "pull_impulse" in header["impulses"]:
+            time, pull = float(columns["time"][-1]), columns["pull"]
+            extremes |= pulls_of_cycles(header["impulses"], time, pull)
     return SeparationResult(
         made,
         header["status"],

@@ -16,6 +16,7 @@ import attrs
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
+from ..kinds import LOADINGS
 from ..reading.limits import check_limit
 from ..reading.references import references_from, resolved_references
 from ..reading.texts import check_keys, check_plain, check_texts, read_text
@@ -30,7 +31,6 @@ from .structure import (
     telling_lines,
     unstructure,
 )
-from .unstructure import LOADING_KINDS
 
 __all__ = [
     "load_liquid",
@@ -132,7 +132,7 @@ def scene_kind(
 ) -> type[SeparationScene] | type[SlidingScene] | type[ContactScene]:
     """Kind of scene of some tables, by the kind of their loading."""
     loading = tables.get("loading")
-    kind = LOADING_KINDS.get(str(loading.get("kind"))) if isinstance(loading, Mapping) else None
+    kind = LOADINGS.get(str(loading.get("kind"))) if isinstance(loading, Mapping) else None
     if kind is None:
         return ContactScene if "window" in tables else SeparationScene
     if issubclass(kind, ContactLoading):

@@ -14,38 +14,20 @@ import cattrs
 from cattrs.gen import make_dict_structure_fn, override
 
 from .. import data
-from ..contact.effects.attraction_laws import AttractionLaw
-from ..contact.effects.base import ContactEffect
-from ..contact.effects.plasticity import HardnessMap
-from ..contact.effects.registry import CONTACT_EFFECTS
 from ..errors import DescriptionError, nearest
+from ..kinds import CONTACT_EFFECTS, KINDS, LOADINGS, SEPARATION_EFFECTS, SLIDING_EFFECTS
 from ..liquids.liquid import Liquid
-from ..liquids.temperature_laws import TemperatureLaw
-from ..scene.effect import EffectRegistry
-from ..scene.faces import FaceHole
+from ..registry import Registries, Registry, family_of
 from ..scene.interface import Body, Interface
 from ..scene.loading import Loading
 from ..scene.materials import Material, RigidBase, Stack
 from ..scene.meniscus import Meniscus
-from ..scene.planforms import Planform
 from ..scene.scenes import ContactScene, Scene
 from ..scene.surfaces import Surface
-from ..separation.effects.registry import SeparationEffect
 from ..units import parse_quantity
 from .meniscus_amount import AMOUNT_KEYS, amount_of, check_flat, with_amount
 from .toml_lines import line_of, lines_of_keys
-from .unstructure import (
-    ARRAY_FIELDS,
-    ATTRACTION_KINDS,
-    HOLE_KINDS,
-    LAW_KINDS,
-    LOADING_KINDS,
-    PLANFORM_KINDS,
-    SEPARATION_EFFECT_KINDS,
-    SURFACE_KINDS,
-    unstructure,
-    with_arrays,
-)
+from .unstructure import unstructure, with_arrays
 
 __all__ = [
     "FileError",
@@ -76,6 +58,23 @@ _RENAMED = {
 }
 
 
+# Fields that became fields of a choice, or the choice itself, by effect and key.
+_MOVED = {
+    ("MeniscusForce", "pulled"): 'profile = { kind = "as-published", pulled = ... }',
+    ("MeniscusForce", "radius"): 'profile = { kind = "as-published", radius = ... }',
+    ("Rupture", "criterion"): 'gap = "limit" or "zero-neck", in place of a length',
+    ("HardnessLimit", "hardness"): 'rule = { kind = "constant", hardness = ... }',
+    ("HardnessLimit", "shift"): 'rule = { kind = "continuous", shift = ... }',
+    ("HardnessLimit", "displacement"): 'rule = { kind = "continuous", displacement = ... }',
+}
+
+
+def _moved(kind: type, key: str) -> str:
+    """Name the replacement of a field that a class had before; empty if there is none."""
+    now = _MOVED.get((kind.__name__, key))
+    return f"it is now {now}" if now else ""
+
+
 def renamed(key: str) -> str:
     """Name the replacement of a key of earlier files, or nearly so; empty if it never was one."""
     import difflib  # for this alone
@@ -88,48 +87,65 @@ def renamed(key: str) -> str:
 
 def _owners(kind: type, key: str) -> str:
     """Name the kinds beside one, of the same family, that have a key; empty if none has."""
-    effects = (SEPARATION_EFFECT_KINDS.by_name, CONTACT_EFFECTS.by_name)
-    for family in (SURFACE_KINDS, LAW_KINDS, ATTRACTION_KINDS, *effects):
-        if kind in family.values():
-            names = [name for name, one in family.items() if key in _keys(one)]
-            return f"it belongs to {' or '.join(names)}; " if names else ""
-    return ""
+    registry = KINDS.of(kind)
+    if registry is None or not registry.name_of(kind):
+        return ""
+    names = [name for name, one in registry.by_name.items() if key in _keys(one)]
+    return f"it belongs to {' or '.join(names)}; " if names else ""
 
 
-def _tagged(tag: str, kinds: Mapping[str, type] | EffectRegistry[Any]) -> Callable[[Any, Any], Any]:
-    """Structure a table by its kind under `tag`; effects may be registered later."""
+def _tagged(known: Registry[Any] | Registries[Any], tag: str) -> Callable[[Any, Any], Any]:
+    """Structure a table by the name of its kind under `tag`; kinds may be registered later."""
 
     def hook(value: Any, _: Any) -> Any:
+        if isinstance(value, str) and getattr(known, "plain", False):
+            value = {tag: value}
         if not isinstance(value, Mapping):
             raise DescriptionError(tag, value, f"be a table with a key {tag!r}")
         rest = dict(value)
-        name = rest.pop(tag, None)
-        if isinstance(kinds, EffectRegistry):
-            return _CONVERTER.structure(rest, kinds.find(name, tag))
-        if name not in kinds:
-            raise DescriptionError(
-                tag, name, "name a known kind", hint=nearest(name, sorted(kinds))
-            )
-        return _CONVERTER.structure(rest, kinds[name])
+        return _CONVERTER.structure(rest, known.find(rest.pop(tag, None), tag))
 
     return hook
 
 
+def _of_family(base: type) -> Callable[[Any, Any], Any]:
+    """Structure a table of a family, whose base class is the type of a field."""
+    registry = KINDS.of(base)
+    assert registry is not None
+    return _tagged(registry, registry.tag)
+
+
+def _is_choice(kind: Any) -> bool:
+    """Whether a type is one of some words or an object of a family."""
+    return any(map(_is_base, get_args(kind))) and any(get_args(one) for one in get_args(kind))
+
+
+def _choice(kind: Any) -> Callable[[Any, Any], Any]:
+    """Structure a word as it is, which the field checks, and a table by its kind."""
+    table = _of_family(next(filter(_is_base, get_args(kind))))
+    return lambda value, target: value if isinstance(value, str) else table(value, target)
+
+
+def _is_base(kind: Any) -> bool:
+    """Whether a type is the base class of a family."""
+    return isinstance(kind, type) and "family" in vars(kind) and bool(family_of(kind))
+
+
 def _quantity(kind: type, attribute: attrs.Attribute[Any]) -> Callable[[Any, Any], Any]:
     unit, field = attribute.metadata["unit"], f"{kind.__name__}.{attribute.name}"
-    cure = ARRAY_FIELDS.get((kind, attribute.name))
+    cure = attribute.metadata.get("in_file")
     # Words allowed in place of a number, such as "vapour".
     words = [w for one in get_args(attribute.type) for w in get_args(one) if isinstance(w, str)]
+    # Classes allowed there, such as the law of a property.
+    tables = [one for one in get_args(attribute.type) if attrs.has(one)]
 
     def hook(value: Any, target: Any) -> Any:
         if getattr(value, "ndim", 0):
             return value
         if cure is not None:
             raise DescriptionError(field, value, "be an array in hand", unit=unit, hint=cure)
-        if isinstance(value, Mapping):
-            if "values" in value:
-                return _CONVERTER.structure(value, HardnessMap)
-            return _law(value, TemperatureLaw)
+        if isinstance(value, Mapping) and tables:
+            return _CONVERTER.structure(value, tables[0])
         if value in words or isinstance(value, bool) or (unit == "-" and isinstance(value, int)):
             return value
         if isinstance(value, list | tuple):
@@ -185,9 +201,17 @@ def _resolved(kind: type) -> None:
     attrs.resolve_types(kind, localns={"Map": Any, "Mask": Any})
 
 
+class _ContactEffect:
+    """Type of an effect in a file of a contact, for the converter."""
+
+
+class _SeparationEffect:
+    """Type of an effect in a file of a separation or a sliding, for the converter."""
+
+
 def _effects(kind: type) -> Callable[[Any, Any], Any]:
     """Structure the effects of a scene: those that its kind of scene may list."""
-    listed: Any = ContactEffect if issubclass(kind, ContactScene) else SeparationEffect
+    listed: Any = _ContactEffect if issubclass(kind, ContactScene) else _SeparationEffect
     return lambda value, _: _CONVERTER.structure(value, tuple[listed, ...])
 
 
@@ -216,7 +240,9 @@ def _attrs_class(kind: type, more: tuple[str, ...] = ()) -> Callable[[Any, Any],
                     f"{kind.__name__}.{key}",
                     value[key],
                     "be a known key",
-                    hint=renamed(key) or _owners(kind, key) + nearest(key, (*known, *more)),
+                    hint=_moved(kind, key)
+                    or renamed(key)
+                    or _owners(kind, key) + nearest(key, (*known, *more)),
                 )
         return inner(value, target)
 
@@ -267,22 +293,23 @@ def _body(value: Any, _: Any) -> Body:
 
 def _loading(value: Any, wanted: type[Loading]) -> Loading:
     """A table with the kind of a loading, and the fields of that kind only."""
-    kinds = {name: kind for name, kind in LOADING_KINDS.items() if issubclass(kind, wanted)}
-    expected = f"name a loading: {' or '.join(map(repr, kinds))}"
+    known = KINDS.of(wanted) or LOADINGS
     if not isinstance(value, Mapping):
+        expected = f"name a loading: {' or '.join(map(repr, known.by_name))}"
         raise DescriptionError("loading", value, f"be a table with a key 'kind', to {expected}")
     given, fields = value.get("kind"), {key: value[key] for key in value if key != "kind"}
-    kind = kinds.get(given) if isinstance(given, str) else None
+    kind = known.get(given) if isinstance(given, str) else None
     if kind is None:
-        fits = [name for name, one in kinds.items() if fields.keys() <= _keys(one)]
+        expected = f"name a loading: {' or '.join(map(repr, known.by_name))}"
+        fits = [name for name, one in known.by_name.items() if fields.keys() <= _keys(one)]
         hint = f"its keys are those of kind = {' or '.join(map(repr, fits))}" if fits else ""
         raise DescriptionError("loading.kind", given, expected, hint=hint)
     for key in sorted(fields.keys() - _keys(kind)):
-        owners = [name for name, one in LOADING_KINDS.items() if key in _keys(one)]
+        owners = [name for name, one in LOADINGS.by_name.items() if key in _keys(one)]
         hint = f"it belongs to {' or '.join(owners)}; " if owners else ""
         hint += nearest(key, sorted(_keys(kind)))
         raise DescriptionError(f"loading.{key}", fields[key], f"be a key of {given}", hint=hint)
-    made: Loading = _LOADINGS[kind](fields, kind)
+    made: Loading = _attrs_class(kind)(fields, kind)
     return made
 
 
@@ -323,6 +350,12 @@ def _carrier(value: Any, _: Any) -> Material | RigidBase:
 _CONVERTER = cattrs.Converter()
 _CONVERTER.register_structure_hook(bool, _bool)
 _CONVERTER.register_structure_hook_factory(attrs.has, _attrs_class)
+_CONVERTER.register_structure_hook_factory(_is_base, _of_family)
+_CONVERTER.register_structure_hook_factory(_is_choice, _choice)
+_CONVERTER.register_structure_hook(_ContactEffect, _tagged(CONTACT_EFFECTS, "effect"))
+_CONVERTER.register_structure_hook(
+    _SeparationEffect, _tagged(Registries(SEPARATION_EFFECTS, SLIDING_EFFECTS), "effect")
+)
 for _matches, _hook in (
     (lambda kind: kind is Liquid, _liquid),
     (lambda kind: kind is Material, _material),
@@ -332,20 +365,12 @@ for _matches, _hook in (
     (lambda kind: kind is Body, _body),
     (lambda kind: kind is Meniscus, _meniscus),
     (lambda kind: kind is Interface, _interface),
-    (lambda kind: kind is Surface, _tagged("shape", SURFACE_KINDS)),
-    (lambda kind: kind is Planform, _tagged("shape", PLANFORM_KINDS)),
-    (lambda kind: kind is FaceHole, _tagged("kind", HOLE_KINDS)),
     (lambda kind: isinstance(kind, type) and issubclass(kind, Loading), _loading),
-    (lambda kind: kind is AttractionLaw, _tagged("law", ATTRACTION_KINDS)),
-    (lambda kind: kind is SeparationEffect, _tagged("effect", SEPARATION_EFFECT_KINDS)),
-    (lambda kind: kind is ContactEffect, _tagged("effect", CONTACT_EFFECTS)),
 ):
     _CONVERTER.register_structure_hook_func(_matches, _hook)
 # After the hooks, which these use for their fields.
 _LIQUID, _MATERIAL, _BODY = _attrs_class(Liquid), _attrs_class(Material), _attrs_class(Body)
 _MENISCUS, _INTERFACE = _attrs_class(Meniscus, AMOUNT_KEYS), _attrs_class(Interface)
-_LOADINGS = {kind: _attrs_class(kind) for kind in LOADING_KINDS.values()}
-_law = _tagged("law", LAW_KINDS)
 
 
 def structure(tables: Mapping[str, Any], kind: type[_T], origin: str) -> _T:
@@ -395,7 +420,7 @@ class Problem(NamedTuple):
         return f"{self.text}  at {self.place}" + (f", line {number}" if number else "")
 
 
-_MOST_LISTED = 50
+_MOST_LISTED = 50  # errors of a file, in lines of a screen; a hostile file may have millions
 
 
 class FileError(DescriptionError):

@@ -7,23 +7,13 @@ from typing import Any
 from attrs import Attribute, field, fields, fields_dict, frozen
 
 from ..errors import DescriptionError
+from ..kinds import TEMPERATURE_LAWS
 from ..units import si
 from ..validators import Described, optional, positive, refuse
-from .temperature_laws import LinearDensity, LinearSurfaceTension, TemperatureLaw, celsius_hint
-from .viscosity import MAX_KINEMATIC_VISCOSITY, VogelViscosity, WaltherViscosity, centistokes_hint
-from .water import IapwsSurfaceTension, KellWaterDensity
+from .temperature_laws import TemperatureLaw, celsius_hint
+from .viscosity import MAX_KINEMATIC_VISCOSITY, centistokes_hint
 
-__all__ = ["LAWS", "Liquid", "LiquidState"]
-
-LAWS: tuple[type[TemperatureLaw], ...] = (
-    WaltherViscosity,
-    VogelViscosity,
-    LinearSurfaceTension,
-    IapwsSurfaceTension,
-    LinearDensity,
-    KellWaterDensity,
-)
-"""Every law a file can name, by its `kind`; which property it gives follows from its `unit`."""
+__all__ = ["Liquid", "LiquidState"]
 
 # Values beyond these are taken for numbers in mN/m, g/mol and GPa. They lie between what occurs in
 # SI units (molten metals 2.5 N/m, polymer oils some kg/mol, liquids 0.3 GPa and more) and what the
@@ -94,7 +84,8 @@ def _constant_or_law(owner: object, attribute: Attribute[Any], value: Any) -> No
     if not isinstance(value, TemperatureLaw):
         positive(owner, attribute, value)
     elif value.unit != attribute.metadata["unit"]:
-        kinds = ", ".join(repr(law.kind) for law in LAWS if law.unit == attribute.metadata["unit"])
+        unit = attribute.metadata["unit"]
+        kinds = ", ".join(repr(law.kind) for law in TEMPERATURE_LAWS if law.unit == unit)
         raise refuse(
             owner,
             attribute,

@@ -60,6 +60,7 @@ class TemperatureLaw(Described, ABC):
         If the range is empty, or not within the domain of the law.
     """
 
+    family: ClassVar[str] = "temperature law"
     kind: ClassVar[str]
     """Name of the law in files."""
     unit: ClassVar[str]
@@ -99,7 +100,7 @@ class TemperatureLaw(Described, ABC):
         low, high = self.meaningful
         if not (math.isfinite(temperature) and low < temperature < high):
             raise self._refusal(temperature)
-        value = self._value(temperature)
+        value = self.value_at(temperature)
         # Just inside the bounds a law may still underflow or overflow.
         if not 0.0 < value < math.inf:
             raise self._refusal(temperature)
@@ -135,7 +136,7 @@ class TemperatureLaw(Described, ABC):
         """Domain of the formula [K], ends excluded."""
 
     @abstractmethod
-    def _value(self, temperature: float) -> float:
+    def value_at(self, temperature: float) -> float:
         """Evaluate the formula; the temperature has been checked."""
 
 
@@ -169,7 +170,8 @@ class LinearLaw(TemperatureLaw):
         zero = self.reference_temperature - self.value / self.slope
         return (0.0, zero) if self.slope < 0.0 else (max(0.0, zero), math.inf)
 
-    def _value(self, temperature: float) -> float:
+    def value_at(self, temperature: float) -> float:
+        """See `TemperatureLaw.value_at`."""
         return self.value + self.slope * (temperature - self.reference_temperature)
 
 

@@ -149,7 +149,8 @@ class WaltherViscosity(TemperatureLaw):
         x, y, slope = self._line
         return float(10.0 ** (x + (_chart(_GLASS_KINEMATIC) - y) / slope)), math.inf
 
-    def _value(self, temperature: float) -> float:
+    def value_at(self, temperature: float) -> float:
+        """See `TemperatureLaw.value_at`."""
         x, y, slope = self._line
         ordinate = y + slope * (math.log10(temperature) - x)
         return float(10.0 ** (10.0**ordinate) - 0.7) * cSt
@@ -226,7 +227,8 @@ class VogelViscosity(TemperatureLaw):
         decades = math.log10(_GLASS) - math.log10(self.reference_viscosity)
         return self.divergence_temperature + self.activation_temperature / decades, math.inf
 
-    def _value(self, temperature: float) -> float:
+    def value_at(self, temperature: float) -> float:
+        """See `TemperatureLaw.value_at`."""
         decades = self.activation_temperature / (temperature - self.divergence_temperature)
         # One power, because a factor could overflow where the product does not.
         return float(10.0 ** (math.log10(self.reference_viscosity) + decades))

@@ -65,7 +65,8 @@ class IapwsSurfaceTension(TemperatureLaw):
         """Temperatures [K] below the critical point."""
         return 0.0, _CRITICAL_TEMPERATURE
 
-    def _value(self, temperature: float) -> float:
+    def value_at(self, temperature: float) -> float:
+        """See `TemperatureLaw.value_at`."""
         tau = 1.0 - temperature / _CRITICAL_TEMPERATURE
         return float(235.8e-3 * tau**1.256 * (1.0 - 0.625 * tau))
 
@@ -112,7 +113,8 @@ class KellWaterDensity(TemperatureLaw):
         """Temperatures [K] of (supercooled) liquid water; the pole at 214 K lies below them."""
         return _FREEZES_BY_ITSELF, _CRITICAL_TEMPERATURE
 
-    def _value(self, temperature: float) -> float:
+    def value_at(self, temperature: float) -> float:
+        """See `TemperatureLaw.value_at`."""
         t = temperature - celsius(0.0)
         total = 0.0
         for coefficient in _KELL:

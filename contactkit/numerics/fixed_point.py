@@ -19,19 +19,27 @@ if TYPE_CHECKING:
 
 __all__ = ["Accelerator", "Anderson", "Evaluation", "FixedPoint", "Momentum", "Plain", "settle"]
 
-# Of the change of the unknown, the change that the error of the next evaluation may cause. Each
-# evaluation then costs about one digit; 0.03 and 0.3 take 4 and 9 % more operator applications over
-# the contacts of docs/scripts (0.3 swings, 0.03 solves in advance what changes again).
+# Measured over 16 contacts with hardness, coupling of friction and adhesion (1,824 applications of
+# the operator in 213 contacts); each number varied by a factor of three each way.
+#
+# Of the change of the unknown, the change that the error of the next evaluation may cause. Tighter
+# solves digits that change again (0.03: 7 % more applications, 2 % fewer contacts); looser lets
+# errors steer the acceleration (0.3: 7 % more contacts, a steep local hardness takes a third more).
 _INNER = 0.1
 # A map may enlarge the errors of its evaluation, as stiff films do: then the change swings instead
 # of falling. After `_PATIENCE` evaluations without a smaller change the ratio falls by `_TIGHTER`.
+# Two tighten too early (Dugdale's law 14 % more); fifteen change nothing but the hardest films.
 _TIGHTER = 0.3
 _LEAST_INNER = 1e-3
 _PATIENCE = 5
-_CONTRACTION = 0.1  # expected of the first step, until two changes are known
-_FASTEST = 1e-3  # contraction relied on at most: one lucky step does not make the next one exact
-_SLOWEST = 1e-3  # 1 - rate of convergence that the estimate of the error assumes at least
-_MEMORY = 5  # estimates of the rate of which the slowest counts
+# Contraction expected of the first step, and relied on at most: it decides when an evaluation is
+# made exact in the hope that it is the last. Neither changes a count.
+_CONTRACTION = 0.1
+_FASTEST = 1e-3
+# Part of the error that an iteration removes: at least, and estimates of which the smallest counts.
+# They guard the stated error of slow iterations, next to jumps, and change no count elsewhere.
+_SLOWEST = 1e-3
+_MEMORY = 5
 
 
 class Evaluation(NamedTuple):
@@ -88,7 +96,8 @@ class Anderson:
     D. G. Anderson, J. ACM 12 (1965) 547; H. F. Walker, P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
     """
 
-    # Four evaluations: two (secants) take 25 % more contacts of partial slip, six none less.
+    # With a memory of two, secants, a friction coupling of 3 does not settle; three take 4 % more
+    # applications, six 3 % fewer and four maps more. The growth decides nothing from 1.2 to 5.
     def __init__(self, memory: int = 4, growth: float = 2.0) -> None:
         self._memory, self._growth = memory, growth
         self._history: list[tuple[Blocks, Blocks]] = []

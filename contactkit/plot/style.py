@@ -25,7 +25,9 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from ..errors import DescriptionError
 from ..files.scenes import write_whole
 from ..separation.columns import COLUMNS
-from ..separation.effects.registry import MeniscusForce, VanDerWaalsForce, ViscousForce
+from ..separation.effects.adhesion import VanDerWaalsForce
+from ..separation.effects.meniscus import MeniscusForce
+from ..separation.effects.viscous import ViscousForce
 
 __all__ = [
     "COLORS",

@@ -2,6 +2,8 @@
 
 materials            Materials, and stacks of layers bonded to a substrate.
 surfaces             Base class of all surfaces; flat, sphere, paraboloid and wave.
+planforms            Planforms of a face: discs, rings, rectangles, images, and their sums.
+faces                Holes and recesses of a face.
 rough_surfaces       Random roughness, height maps, and sums of surfaces.
 topography           Topography objects of other packages as surfaces.
 asperity_population  Summits of a rough surface as a population of spheres.
@@ -10,7 +12,6 @@ interface            Two bodies and the meniscus between them; the conventions o
 window               Part of the interface that a contact is solved in, and its grid.
 loading              Imposed speed, force or time; pressing or approach; sliding.
 effect               Base class of all effects, and their registry.
-installed_effects    Effects of other packages, declared as entry points.
 scenes               Contact, separation and sliding: interface, loading and effects.
 plan                 Base class of all plans.
 result               Base class of all results.

@@ -17,6 +17,7 @@ __all__ = ["FaceHole", "Recess", "SealedHole", "Vent"]
 class FaceHole(Described):
     """A hole in a face. Its kind is its name in files, under ``kind``."""
 
+    family: ClassVar[str] = "face hole"
     kind: ClassVar[str]
 
     shape: Planform = field(validator=part(Planform))

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import abc
 import math
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, NamedTuple
 
-from attrs import Attribute, field, frozen
+from attrs import Attribute, field, fields, frozen
 
 from ..errors import DescriptionError, PlanError
 from ..units import si
@@ -27,14 +27,12 @@ from ..validators import (
 )
 
 __all__ = [
-    "CONTACT_LOADINGS",
-    "SEPARATION_LOADINGS",
-    "SLIDING_LOADINGS",
     "Approach",
     "ContactLoading",
     "ImposedForce",
     "ImposedSpeed",
     "ImposedTime",
+    "Imposed",
     "Loading",
     "Pressing",
     "SeparationLoading",
@@ -87,6 +85,7 @@ class SeparationLoading(Loading):
         Gap at the start and gap at which the bodies count as separated [m].
     """
 
+    family: ClassVar[str] = "separation loading"
     imposed: ClassVar[str]
 
     initial_gap: float = field(validator=non_negative, metadata=si("m"))
@@ -266,19 +265,66 @@ class ImposedForce(SeparationLoading):
         return self.mass
 
 
-SEPARATION_LOADINGS: tuple[type[SeparationLoading], ...] = (ImposedSpeed, ImposedForce, ImposedTime)
-
-
 # --- Contact --------------------------------------------------------------------------------------
+
+
+class Imposed(NamedTuple):
+    """Imposed quantity of a loading: the name of its field, its value and its unit."""
+
+    name: str
+    value: float
+    unit: str
 
 
 @frozen(kw_only=True)
 class ContactLoading(Loading):
-    """A loading that brings two bodies into contact."""
+    """A loading that brings two bodies into contact: a load is imposed, or the approach.
+
+    One's own needs `kind` and `mean_pressure`, and fields of which the first that is given is what
+    load curves and studies state.
+
+    Examples
+    --------
+    >>> @frozen(kw_only=True)
+    ... class DeadWeight(ContactLoading):
+    ...     kind = "dead-weight"
+    ...     mass: float = field(validator=positive, metadata=si("kg"))
+    ...
+    ...     def mean_pressure(self, area):
+    ...         return 9.81 * self.mass / area
+    >>> DeadWeight(mass=0.5).summary, DeadWeight(mass=0.5).quantity.value
+    ('mass 0.5 kg', 0.5)
+    """
+
+    family: ClassVar[str] = "contact loading"
 
     @abc.abstractmethod
     def mean_pressure(self, area: float) -> float | None:
-        """Mean pressure [Pa] over a window of an area [m2]; None if it is not imposed."""
+        """Mean pressure [Pa] over a window of an area [m2]; None if the approach is imposed."""
+
+    @property
+    def imposed_approach(self) -> float | None:
+        """Imposed approach of the bodies from first touch [m]; None if a load is imposed."""
+        return None
+
+    @property
+    def quantity(self) -> Imposed:
+        """The imposed quantity.
+
+        Examples
+        --------
+        >>> Pressing(force=2.0).quantity
+        Imposed(name='force', value=2.0, unit='N')
+        """
+        given = ((a, getattr(self, a.name)) for a in fields(type(self)))
+        a, value = next((a, value) for a, value in given if value is not None)
+        return Imposed(a.name, value, a.metadata.get("unit", ""))
+
+    @property
+    def summary(self) -> str:
+        """See `Loading.summary`."""
+        name, value, unit = self.quantity
+        return f"{name} {value:g} {unit}"
 
 
 @frozen(kw_only=True)
@@ -311,9 +357,7 @@ class Pressing(ContactLoading):
     @property
     def summary(self) -> str:
         """See `Loading.summary`."""
-        if self.force is not None:
-            return f"force {self.force:g} N"
-        return f"mean pressure {self.pressure:g} Pa"
+        return super().summary if self.pressure is None else f"mean {super().summary}"
 
 
 @frozen(kw_only=True)
@@ -337,9 +381,9 @@ class Approach(ContactLoading):
         return
 
     @property
-    def summary(self) -> str:
-        """See `Loading.summary`."""
-        return f"approach {self.approach:g} m"
+    def imposed_approach(self) -> float:
+        """See `ContactLoading.imposed_approach`."""
+        return self.approach
 
 
 @frozen(kw_only=True)
@@ -409,9 +453,6 @@ class TangentialStep(Described):
         return " ".join(words)
 
 
-CONTACT_LOADINGS: tuple[type[ContactLoading], ...] = (Pressing, Approach)
-
-
 # --- Sliding --------------------------------------------------------------------------------------
 
 
@@ -436,6 +477,7 @@ class Sliding(Loading):
     'speed'
     """
 
+    family: ClassVar[str] = "sliding loading"
     kind: ClassVar[str] = "sliding"
 
     gap: float = field(validator=non_negative, metadata=si("m"))
@@ -455,6 +497,3 @@ class Sliding(Loading):
     def summary(self) -> str:
         """See `Loading.summary`."""
         return f"{self.imposed} imposed at a gap of {self.gap:g} m"
-
-
-SLIDING_LOADINGS: tuple[type[Loading], ...] = (Sliding,)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import abc
 from os import PathLike
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Literal, Protocol
 
 from ..accuracy import Accuracy
 from ..errors import NotSimulatedError, PlanError
-from .effect import Effect, EffectRegistry, as_written, choices
-from .scenes import Scene
+from ..registry import Registries, Registry
+from .effect import Effect, as_written, choices
+from .scenes import ContactScene, Scene
 
 __all__ = ["ScenePlan", "check_accuracy", "check_plan", "check_scene"]
 
@@ -30,7 +31,7 @@ class ScenePlan(abc.ABC):
 
     __slots__ = ()
 
-    known_effects: ClassVar[EffectRegistry[Any]]
+    known_effects: ClassVar[Registry[Any] | Registries[Any]]
     """The effects that a scene of this kind may list."""
 
     @property
@@ -139,8 +140,8 @@ def check_scene(given: object, kinds: type[Scene] | tuple[type[Scene], ...]) -> 
     raise PlanError(f"{_names(known)} is needed here, got {_name(given)}{cure}")
 
 
-def check_accuracy(given: object) -> None:
-    """Refuse what is no `Accuracy`, such as a tolerance or a name.
+def check_accuracy(given: object, scene: Scene) -> None:
+    """Refuse what is no `Accuracy`, such as a tolerance or a name, and settings of other scenes.
 
     Raises
     ------
@@ -151,6 +152,13 @@ def check_accuracy(given: object) -> None:
         known = isinstance(given, str) and hasattr(Accuracy, given)
         cure = f"ck.Accuracy.{given}" if known else "ck.Accuracy(rtol=...)"
         raise PlanError(f"an Accuracy is needed beside the scene, got {given!r}; write {cure}")
+    kind: Literal["contact", "separation"]
+    kind = "contact" if isinstance(scene, ContactScene) else "separation"
+    if isinstance(given, Accuracy) and (name := given.foreign(kind)):
+        raise PlanError(
+            f"Accuracy.{name} = {getattr(given, name)!r} is not read by a {type(scene).__name__}: "
+            "leave it out"
+        )
 
 
 def _check_kind(given: object) -> None:

@@ -60,6 +60,7 @@ def _pair(check: Any) -> Any:
 class Planform(Described, abc.ABC):
     """A region of the plane. Its kind is its name in files, under ``shape``."""
 
+    family: ClassVar[str] = "planform"
     kind: ClassVar[str]
 
     @abc.abstractmethod
@@ -474,7 +475,15 @@ class Image(Planform):
 
     kind: ClassVar[str] = "image"
 
-    coverage: Map = field(converter=_as_coverage, repr=False, metadata=si("-"))
+    coverage: Map = field(
+        converter=_as_coverage,
+        repr=False,
+        metadata=si("-")
+        | {
+            "in_file": "compose the planform of others; an image is kept in Python and in result "
+            "files"
+        },
+    )
     pixel_size: float | tuple[float, float] = field(converter=as_pair, metadata=si("m"))
 
     @coverage.validator

@@ -70,7 +70,7 @@ class Result(Tabular):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What to know about the numbers and curves, in sentences; none by default."""
+        """Remarks on the numbers and curves, in sentences; none by default."""
         return ()
 
     @abc.abstractmethod

@@ -1,21 +1,23 @@
 """Rough surfaces: random roughness by its spectrum, height maps, and sums of surfaces.
 
-A height [m] is measured out of its own body: a peak is positive. All but `Heights` are recipes,
-made into heights on a grid when a contact is planned.
+All but `Heights` are recipes, made into heights on a grid when a contact is planned.
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from weakref import WeakKeyDictionary
 
 from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
 from ..units import si
 from ..validators import as_pair, as_tuple, choice, optional, part, positive, refuse
-from .surfaces import Surface
+from .surfaces import OwnGrid, ShortWave, Surface, realise, union_of
+from .window import Grid
 
 if TYPE_CHECKING:
     import numpy as np
@@ -29,19 +31,8 @@ __all__ = [
     "GaussianRoughness",
     "Heights",
     "Measured",
-    "RoughSurface",
     "SelfAffineRoughness",
 ]
-
-
-@frozen(kw_only=True)
-class RoughSurface(Surface):
-    """A surface without one round apex."""
-
-    @property
-    def curvature(self) -> None:
-        """See `Surface.curvature`."""
-        return None
 
 
 def _seed(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -57,7 +48,7 @@ def _length_or_pair(owner: object, attribute: Attribute[Any], value: Any) -> Non
 
 
 @frozen(kw_only=True)
-class GaussianRoughness(RoughSurface):
+class GaussianRoughness(Surface):
     """Gaussian heights with the exponential autocorrelation of Eq. (2.42).
 
     Parameters
@@ -83,9 +74,20 @@ class GaussianRoughness(RoughSurface):
     cutoff: float = field(validator=positive, metadata=si("m"))
     seed: int = field(default=1, validator=_seed, metadata=si("-"))
 
+    def shortest_waves(self, grid: Grid) -> tuple[ShortWave, ...]:
+        """See `Surface.shortest_waves`."""
+        return (ShortWave("GaussianRoughness.cutoff", self.cutoff, max(grid.pixel_size)),)
+
+    def heights_on(self, grid: Grid) -> Map:
+        """See `Surface.heights_on`."""
+        from ..roughness.random_surfaces import gaussian_exponential
+
+        numbers = (self.rms, self.correlation_length, self.cutoff, self.seed)
+        return gaussian_exponential(grid.shape, grid.pixel_size, *numbers)
+
 
 @frozen(kw_only=True)
-class SelfAffineRoughness(RoughSurface):
+class SelfAffineRoughness(Surface):
     """Gaussian heights with a power-law spectrum between two wavelengths.
 
     Parameters
@@ -125,6 +127,17 @@ class SelfAffineRoughness(RoughSurface):
                 unit="m",
             )
 
+    def shortest_waves(self, grid: Grid) -> tuple[ShortWave, ...]:
+        """See `Surface.shortest_waves`."""
+        return (ShortWave("SelfAffineRoughness.cutoff", self.cutoff, max(grid.pixel_size)),)
+
+    def heights_on(self, grid: Grid) -> Map:
+        """See `Surface.heights_on`."""
+        from ..roughness.random_surfaces import SelfAffineSpectrum, self_affine
+
+        spectrum = SelfAffineSpectrum(self.hurst, self.rolloff, self.cutoff)
+        return self_affine(grid.shape, grid.pixel_size, self.rms, spectrum, self.seed)
+
 
 def _as_path(value: Any) -> str:
     if isinstance(value, str | os.PathLike):
@@ -133,7 +146,7 @@ def _as_path(value: Any) -> str:
 
 
 @frozen(kw_only=True)
-class Measured(RoughSurface):
+class Measured(Surface):
     """A height map from a file: npy, columns of text, ISO 25178-71 as text, formats of instruments.
 
     Parameters
@@ -169,6 +182,53 @@ class Measured(RoughSurface):
     flipped: bool = False
     checksum: str | None = None
     is_periodic: bool | None = field(default=None, validator=optional(part(bool)))
+
+    @property
+    def own_grids(self) -> frozenset[OwnGrid]:
+        """See `Surface.own_grids`; reads the file."""
+        return _of_file(self).own_grids
+
+    @property
+    def isolated_maps(self) -> tuple[str, ...]:
+        """See `Surface.isolated_maps`; reads the file."""
+        return (self.path,) if _of_file(self).is_periodic is False else ()
+
+    def heights_on(self, grid: Grid) -> Map:
+        """See `Surface.heights_on`; reads the file."""
+        return _of_file(self).heights_on(grid)
+
+
+# A plan looks at a map several times. One of 4096 x 4096 pixels takes 134 MB: it goes with the last
+# scene that has the surface.
+_FILES: WeakKeyDictionary[Measured, tuple[int, Heights]] = WeakKeyDictionary()
+
+
+def _of_file(surface: Measured) -> Heights:
+    """Heights of a map; its file is read once for as long as it does not change."""
+    path = Path(surface.path)
+    changed = path.stat().st_mtime_ns if path.exists() else 0
+    known = _FILES.get(surface)
+    if known is None or known[0] != changed:
+        _FILES.pop(surface, None)  # so that the key is this surface, not an equal one
+        known = _FILES[surface] = (changed, _read(surface))
+    return known[1]
+
+
+def _read(surface: Measured) -> Heights:
+    from ..roughness.height_maps import detrended, read_height_map
+
+    found = read_height_map(
+        surface.path,
+        pixel_size=surface.pixel_size,
+        unit=surface.unit,
+        checksum=surface.checksum,
+    )
+    heights = detrended(found.heights, surface.detrend)
+    return Heights(
+        heights=-heights if surface.flipped else heights,
+        pixel_size=found.pixel_size,
+        is_periodic=found.is_periodic if surface.is_periodic is None else surface.is_periodic,
+    )
 
 
 def _as_map(value: Any) -> Map:
@@ -212,7 +272,7 @@ def _filled(heights: Map, holes: Mask) -> Map:
 
 
 @frozen(kw_only=True, eq=False)
-class Heights(RoughSurface):
+class Heights(Surface):
     """Heights in hand, for people who come with an array.
 
     Masked pixels (`numpy.ma`) are holes: what the instrument did not measure, or a pore. They carry
@@ -241,12 +301,28 @@ class Heights(RoughSurface):
 
     kind: ClassVar[str] = "heights"
 
-    heights: Map = field(converter=_as_map, repr=False, metadata=si("m"))
+    heights: Map = field(
+        converter=_as_map,
+        repr=False,
+        metadata=si("m")
+        | {
+            "in_file": "save the array as .npy and use Measured(path=..., pixel_size=..., "
+            "unit='m', detrend='none'), in a file shape = 'measured'"
+        },
+    )
     pixel_size: float | tuple[float, float] = field(
         converter=as_pair, validator=_length_or_pair, metadata=si("m")
     )
     is_periodic: bool | None = field(default=None, validator=optional(part(bool)))
-    holes: Mask | None = field(default=None, converter=_as_holes, repr=False)
+    holes: Mask | None = field(
+        default=None,
+        converter=_as_holes,
+        repr=False,
+        metadata={
+            "in_file": "fill the holes, save the array as .npy and use Measured(path=...); a map "
+            "with holes is kept in Python and in result files"
+        },
+    )
 
     @heights.validator
     def _check_heights(self, attribute: Attribute[Any], value: Map) -> None:
@@ -306,9 +382,29 @@ class Heights(RoughSurface):
         """SHA-256 of the heights."""
         return hashlib.sha256(self.heights.tobytes()).hexdigest()
 
+    @property
+    def void_pixels(self) -> Mask | None:
+        """See `Surface.void_pixels`."""
+        return self.holes
+
+    @property
+    def own_grids(self) -> frozenset[OwnGrid]:
+        """See `Surface.own_grids`."""
+        size, (ny, nx) = self.pixel_size, self.heights.shape
+        return frozenset({((ny, nx), size if isinstance(size, tuple) else (size, size))})
+
+    @property
+    def isolated_maps(self) -> tuple[str, ...]:
+        """See `Surface.isolated_maps`."""
+        return ("Heights",) if self.is_periodic is False else ()
+
+    def heights_on(self, grid: Grid) -> Map:
+        """See `Surface.heights_on`."""
+        return self.heights.copy()
+
 
 @frozen(kw_only=True)
-class CombinedSurface(RoughSurface):
+class CombinedSurface(Surface):
     """A sum of surfaces, such as a rough sphere.
 
     Parameters
@@ -326,3 +422,36 @@ class CombinedSurface(RoughSurface):
         for item in value:
             if not isinstance(item, Surface):
                 raise refuse(self, attribute, item, "hold surfaces only")
+
+    @property
+    def body_curvature(self) -> float:
+        """See `Surface.body_curvature`."""
+        return sum(part.body_curvature for part in self.parts)
+
+    @property
+    def own_grids(self) -> frozenset[OwnGrid]:
+        """See `Surface.own_grids`."""
+        return frozenset().union(*(part.own_grids for part in self.parts))
+
+    @property
+    def isolated_maps(self) -> tuple[str, ...]:
+        """See `Surface.isolated_maps`."""
+        return tuple(name for part in self.parts for name in part.isolated_maps)
+
+    @property
+    def void_pixels(self) -> Mask | None:
+        """See `Surface.void_pixels`."""
+        return union_of(part.void_pixels for part in self.parts)
+
+    def shortest_waves(self, grid: Grid) -> tuple[ShortWave, ...]:
+        """See `Surface.shortest_waves`."""
+        return tuple(wave for part in self.parts for wave in part.shortest_waves(grid))
+
+    def heights_on(self, grid: Grid) -> Map:
+        """See `Surface.heights_on`."""
+        import numpy as np
+
+        total: Map = np.zeros(grid.shape)
+        for surface in self.parts:
+            total += realise(surface, grid)
+        return total

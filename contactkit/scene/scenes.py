@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from attrs import field, frozen
+from attrs import Attribute, field, frozen
 
 from ..errors import PlanError
+from ..kinds import CONTACT_LOADINGS, SEPARATION_LOADINGS
 from ..units import celsius, si
-from ..validators import Described, as_tuple, part, positive
+from ..validators import Described, as_tuple, part, positive, refuse
 from .effect import Effect
 from .interface import Interface
 from .loading import (
-    CONTACT_LOADINGS,
-    SEPARATION_LOADINGS,
     ContactLoading,
     ImposedForce,
     Loading,
@@ -25,7 +25,21 @@ from .window import Window
 
 __all__ = ["ContactScene", "InWords", "Scene", "SeparationScene", "SlidingScene"]
 
+if TYPE_CHECKING:
+    from ..registry import Registry
+
 _E = TypeVar("_E", bound=Effect)
+
+
+def _loading(base: type[Loading], known: Registry[Any]) -> Callable[[Any, Any, Any], None]:
+    """Refuse what is no loading of a kind of scene."""
+
+    def check_loading(owner: object, attribute: Attribute[Any], value: Any) -> None:
+        if not isinstance(value, base):
+            names = " or ".join(kind.__name__ for kind in known)
+            raise refuse(owner, attribute, value, f"be a {names}")
+
+    return check_loading
 
 
 class InWords:
@@ -119,7 +133,7 @@ class ContactScene(Scene):
     """
 
     window: Window = field(factory=Window, validator=part(Window))
-    loading: ContactLoading = field(validator=part(*CONTACT_LOADINGS))
+    loading: ContactLoading = field(validator=_loading(ContactLoading, CONTACT_LOADINGS))
     effects: tuple[Effect, ...] = field(converter=as_tuple)
 
     @property
@@ -146,7 +160,7 @@ class SeparationScene(Scene):
         A title for tables and figures.
     """
 
-    loading: SeparationLoading = field(validator=part(*SEPARATION_LOADINGS))
+    loading: SeparationLoading = field(validator=_loading(SeparationLoading, SEPARATION_LOADINGS))
     effects: tuple[Effect, ...] = field(converter=as_tuple)
 
     @property

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from attrs import Attribute, field, frozen
 
 from ..units import si
 from ..validators import Described, optional, positive, refuse
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Map = NDArray[np.float64]
 
 __all__ = ["Axis", "Edges", "Grid", "Window"]
 
@@ -62,6 +68,15 @@ class Grid(NamedTuple):
     def repeats(self) -> tuple[bool, bool]:
         """Whether it repeats along y, and along x."""
         return self.edges in (True, "y"), self.edges in (True, "x")
+
+    def from_centre(self) -> tuple[Map, Map]:
+        """Distances y (ny, 1) and x (1, nx) [m] of the pixels from that in the middle."""
+        import numpy as np
+
+        y, x = (
+            (np.arange(n) - n // 2) * d for n, d in zip(self.shape, self.pixel_size, strict=True)
+        )
+        return y[:, None], x[None, :]
 
     @property
     def area(self) -> float:

@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 from ..errors import PlanError
-from ..scene.surfaces import Flat, Sphere
 from .effects.base import SeparationEffect, effects_of
 
 if TYPE_CHECKING:
@@ -31,7 +30,7 @@ def check_bodies(scene: SeparationScene | SlidingScene) -> None:
     problems: list[str] = []
     for name in ("lower", "upper"):
         body = getattr(interface, name)
-        if not isinstance(body.surface, Flat | Sphere):
+        if not body.surface.bounds_film:
             problems.append(
                 f"interface.{name}.surface is a {type(body.surface).__name__}, and the film knows "
                 "a Flat or a Sphere only; press rough bodies in a ContactScene"
@@ -65,7 +64,7 @@ def check_rim(prepared: PreparedScene[SeparationScene]) -> None:
     beyond = {name: radius for name, radius in radii.items() if radius > rim}
     if not beyond:
         return
-    side = "lower" if isinstance(interface.lower.surface, Flat) else "upper"
+    side = "upper" if interface.curvatures[0] else "lower"
     taken = " and ".join(f"{name} takes a circle of radius {r:.4g} m" for name, r in beyond.items())
     count = scene.meniscus.count
     shared = f", {rim:g} m for each of {count} menisci" if count > 1 else ""

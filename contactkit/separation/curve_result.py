@@ -97,11 +97,6 @@ class CurveResult(Result):
     def lines(self) -> str:
         """Error of straight lines between the points of the curves, in a sentence."""
         plan: Any = self.plan
-        if "mean_pull" in self.columns:
-            return (
-                "each cycle has 40 or more points; straight lines between them are right to about "
-                "0.01 of the range of a curve, and a jump is drawn from one to the next"
-            )
         return (
             "straight lines between neighbouring points are right to "
             f"{plan.accuracy.curve_rtol:g} of the gap, and of the range of each other curve"

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..errors import ConvergenceError
 from .curve_result import LateColumns
-from .motion.state import MotionState, Outputs, outputs
+from .motion.advance import advance
+from .motion.state import MotionState, Outputs, PullLaw, outputs
 from .plan import Plan
 from .prescribed import frozen, impulses_so_far, simulated
 from .results import with_late_curves
@@ -19,7 +23,9 @@ if TYPE_CHECKING:
 
     Curve = NDArray[np.float64]
 
-__all__ = ["at_steps", "motion_curves", "pull_law"]
+__all__ = ["at_steps", "before_events", "motion_curves", "pull_law"]
+
+_JUST = 1e-6  # of a step, before the event at its end; as far as a jump of a curve is drawn
 
 
 def pull_law(plan: Plan) -> Callable[[float], float]:
@@ -40,6 +46,21 @@ def at_steps(
         "film_status": np.array([float(one.status) for one in shown]),
     }
     return columns, np.array([one.film for one in shown])
+
+
+def before_events(plan: Plan, states: Sequence[MotionState], pull: PullLaw) -> list[MotionState]:
+    """States just before a film breaks and before a mass lands.
+
+    At the step that ends there the film is not whole any more, and the speed lost.
+    """
+    found = []
+    for before, after in pairwise(states):
+        dt = (after.time - before.time) * (1.0 - _JUST)
+        breaks, lands = after.broken > before.broken, after.in_contact > before.in_contact
+        if (breaks or lands) and dt > 0.0:
+            with contextlib.suppress(ConvergenceError):  # a part of a step has no solution
+                found.append(advance(plan, before, pull, dt))
+    return found
 
 
 def motion_curves(

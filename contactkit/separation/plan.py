@@ -11,9 +11,11 @@ from attrs import field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, InfeasibleError, PlanError
+from ..kinds import SEPARATION_EFFECTS
 from ..liquids.liquid import LiquidState
+from ..registry import Registry
 from ..scene.column import Column
-from ..scene.effect import EffectRegistry, check_listed
+from ..scene.effect import check_listed
 from ..scene.loading import ImposedForce, ImposedTime
 from ..scene.plan import ScenePlan
 from ..scene.scenes import SeparationScene
@@ -29,12 +31,12 @@ from .effects.base import (
     ForceLaw,
     Limiter,
     LimitKind,
+    SeparationEffect,
     SeparationForce,
     effects_of,
 )
 from .effects.force_law import measured_rate, settled
 from .effects.prepared import PreparedScene, prepare_scene, with_fraction
-from .effects.registry import SEPARATION_EFFECTS, SeparationEffect
 from .film import Film
 from .first_closing import closing_note
 
@@ -65,7 +67,7 @@ class Plan(ScenePlan):
     ``print(plan)`` says what will be simulated and what will not; `cite` gives the sources.
     """
 
-    known_effects: ClassVar[EffectRegistry[SeparationEffect]] = SEPARATION_EFFECTS
+    known_effects: ClassVar[Registry[Any]] = SEPARATION_EFFECTS
 
     prepared: PreparedScene[SeparationScene] = field(repr=False)
     film: Film
@@ -203,7 +205,7 @@ class Plan(ScenePlan):
             found.append("no mass: speeds are those at which the film balances the pull")
         if isinstance(loading, ImposedForce):
             found.append(closing_note(loading, self.film))
-        if not self.scene.interface.has_discs:
+        if not self.scene.interface.has_discs and len(self.forces) > 1:
             found.append(
                 f"the face is no even disc: all but the viscous force take it for one of the same "
                 f"area, of radius {quantity_text(self.scene.interface.rim_radius, 'm')}"

@@ -14,6 +14,7 @@ import numpy as np
 from ..numerics.lines import with_middles
 from ..scene.loading import ImposedSpeed, ImposedTime
 from ..units import quantity_text
+from .bridge_end import distance_to_end
 from .curve_result import LateColumns, Work
 from .effects.base import CAVITY, LIMIT, FilmStatus, LimitKind, SeparationForce
 from .effects.force_law import law_impulse
@@ -169,7 +170,8 @@ class _SpeedLines:
         columns = _forces_at_speed(self.plan, self.loading, gaps.tolist(), torn)
         pull, time = columns["pull"], columns["time"]
         steps = 0.5 * (pull[1:] + pull[:-1]) * np.diff(time)
-        return np.column_stack([*columns.values(), np.concatenate([[0.0], np.cumsum(steps)])])
+        impulse = np.concatenate([[0.0], np.cumsum(steps)])
+        return np.column_stack([*columns.values(), impulse, _to_end(self.plan, gaps)])
 
 
 @attrs.frozen(eq=False)
@@ -184,7 +186,13 @@ class _TimeLines:
         return _within_time(self.plan, _with_middles(self.plan, self.gaps, self._table))
 
     def _table(self, gaps: Curve) -> Curve:
-        return np.column_stack(list(_within_time(self.plan, gaps.tolist()).values()))
+        columns = _within_time(self.plan, gaps.tolist())
+        return np.column_stack([*columns.values(), _to_end(self.plan, gaps)])
+
+
+def _to_end(plan: Plan, gaps: Curve) -> list[float]:
+    """Return what lines follow so that the shape of a bridge is right near its end."""
+    return [distance_to_end(plan, gap) for gap in gaps.tolist()]
 
 
 def _with_middles(

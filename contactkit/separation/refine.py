@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import ConvergenceError
+from ..numerics.lines import errors_of_lines, needed
+from .bridge_end import distance_to_end
 from .motion.advance import advance
 from .motion.state import MotionState, PullLaw
 from .plan import Plan
@@ -35,7 +37,6 @@ _CURVED = 0.05  # of the error, by second differences of the steps: below, a ste
 _JUMP = 1e-6  # of a step, in which a jump is drawn; where a limit sets in, rounding takes 1e-8
 _STILL = 1e-14  # of the gap, some fifty times its rounding
 _CREEP = 1e-3  # of a step: shorter parts in which the gap stays still find no more than rounding
-_SMALLEST = 1e-12  # of the largest value of a curve: its rounding
 
 
 def refined(
@@ -60,12 +61,13 @@ def refined(
     """
 
     def shown(state: MotionState) -> Floats:
-        return np.array([*row(state), math.log(state.gap)])
+        to_end = distance_to_end(plan, state.gap, state.volume_fraction)
+        return np.array([*row(state), to_end, math.log(state.gap)])
 
     rows = np.array([shown(state) for state in states])
     rtol = plan.accuracy.curve_rtol
-    errors = np.maximum(rtol * np.ptp(rows, axis=0), _SMALLEST * np.abs(rows).max(axis=0)) + 1e-300
-    errors[-1] = rtol  # of the logarithm of the gap
+    errors = errors_of_lines(rows, rtol) + 1e-300
+    errors[-2:] = rtol  # of the distance to the end of a bridge, and of the logarithm of the gap
     filled = _Filled(plan, pull, shown, errors, rtol)
     filled.add(states[0], rows[0], is_event=True)
     needed = _curved(np.array([s.time for s in states]), rows, errors, rtol)
@@ -208,33 +210,5 @@ class _Filled:
         table = np.column_stack([shown, rows])[chosen]
         allowed = np.tile((1.0 - _SHARE) * self._errors, (len(chosen), 1))
         allowed[:, 0] = (1.0 - _SHARE) * self._rtol * table[:, 1]
-        kept = _needed(table, allowed, events[chosen])
-        return [self._states[i] for i in chosen[kept].tolist()], table[kept, :-1]
-
-
-def _needed(table: Floats, allowed: Floats, events: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Points that lines cannot do without: each line is drawn as far as it goes."""
-    last = len(table) - 1
-    marks = np.append(np.flatnonzero(events), last)
-
-    def fits(start: int, end: int) -> bool:
-        if end <= start + 1:
-            return True
-        inside = slice(start + 1, end)
-        part = (table[inside, 0] - table[start, 0]) / (table[end, 0] - table[start, 0])
-        line = table[start, 1:] + part[:, None] * (table[end, 1:] - table[start, 1:])
-        return bool((np.abs(table[inside, 1:] - line) <= allowed[inside]).all())
-
-    chosen, here = [0], 0
-    while here < last:
-        end = int(marks[np.searchsorted(marks, here, side="right")])
-        low, width = here + 1, 2
-        while here + width <= end and fits(here, here + width):
-            low, width = here + width, 2 * width
-        high = min(here + width, end + 1)
-        while high - low > 1:
-            middle = (low + high) // 2
-            low, high = (middle, high) if fits(here, middle) else (low, middle)
-        chosen.append(low)
-        here = low
-    return np.array(chosen)
+        kept = needed(table, allowed, np.flatnonzero(events[chosen]))
+        return [self._states[i] for i in chosen[kept].tolist()], table[kept, :-2]

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     Curve = NDArray[np.float64]
 
-__all__ = ["SeparationResult", "Work", "extremes_of", "with_late_curves"]
+__all__ = ["SeparationResult", "Work", "extremes_of", "pulls_of_cycles", "with_late_curves"]
 
 P_co = TypeVar("P_co", covariant=True)
 
@@ -62,7 +62,8 @@ class SeparationResult(CurveResult):
         What it cost.
     extremes : mapping of str to float
         Greatest force of all films and solids that resists opening, and that pushes the bodies
-        apart [N], by the names they have in `scalars`.
+        apart [N], by the names they have in `scalars`; over the cycles of a vibration also the mean
+        pull with and without it, and the highest and the lowest.
     """
 
     cure: ClassVar[str] = "impose a speed or a force to get it"
@@ -152,20 +153,7 @@ class SeparationResult(CurveResult):
             found |= effect.scalars(self)
         if self.state is not None:
             found |= _numbers_of_motion(self.plan, self.state)
-        found |= {name: (value, "N") for name, value in self.extremes.items()}
-        return found | self._means_of_cycles()
-
-    def _means_of_cycles(self) -> dict[str, tuple[float, str]]:
-        """Pull over the whole of a vibration: its mean, that without vibration, its extremes."""
-        if "pull_impulse" not in self.impulses:
-            return {}
-        duration, pull = float(self.time[-1]), self.pull
-        return {
-            "mean_pull": (self.impulses["pull_impulse"] / duration, "N"),
-            "mean_steady_pull": (self.impulses["steady_pull_impulse"] / duration, "N"),
-            "highest_pull": (float(pull.max()), "N"),
-            "lowest_pull": (float(pull.min()), "N"),
-        }
+        return found | {name: (value, "N") for name, value in self.extremes.items()}
 
 
 def with_late_curves(
@@ -214,6 +202,18 @@ def extremes_of(plan: Plan, columns: Mapping[str, Curve]) -> dict[str, float]:
     return {
         f"peak_{kind}repulsion": max(-float(total.min()), 0.0),
         f"peak_{kind}force": max(float(total.max()), 0.0),
+    }
+
+
+def pulls_of_cycles(
+    impulses: Mapping[str, float], duration: float, pull: Curve
+) -> dict[str, float]:
+    """Pull over the whole of a vibration [N]: its mean, that without vibration, its extremes."""
+    return {
+        "mean_pull": impulses["pull_impulse"] / duration,
+        "mean_steady_pull": impulses["steady_pull_impulse"] / duration,
+        "highest_pull": float(pull.max()),
+        "lowest_pull": float(pull.min()),
     }
 
 

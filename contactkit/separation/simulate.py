@@ -16,7 +16,7 @@ from .curve_result import Work
 from .first_closing import closed_first
 from .motion.advance import advance, internal_step
 from .motion.state import MotionState, acting_film, outputs, start
-from .motion_curves import at_steps, motion_curves, pull_law
+from .motion_curves import at_steps, before_events, motion_curves, pull_law
 from .plan import Plan
 from .prescribed import at_speed, impulses_of_gaps, within_time
 from .results import SeparationResult
@@ -24,7 +24,7 @@ from .sliding.plan import SlidingPlan
 from .sliding.result import SlidingResult
 from .sliding.run import slide
 from .validity import check
-from .vibration import vibrating
+from .vibration.run import vibrating
 
 __all__ = ["advance", "simulate"]
 
@@ -216,7 +216,10 @@ def _motion_result(
         )
     work = Work(last.n_steps, last.n_rejected, last.n_evaluations, clock.perf_counter() - begun)
     shown = [outputs(plan, state, pull(state.time)) for state in states]
-    along, force = at_steps(states, shown)
+    ends = before_events(plan, states, pull)
+    along, force = at_steps(
+        [*states, *ends], [*shown, *(outputs(plan, state, pull(state.time)) for state in ends)]
+    )
     validity = check(plan, along)
     # The motion knows its peak between the steps too.
     extremes = {"peak_repulsion": max(-float(force.min()), 0.0)}

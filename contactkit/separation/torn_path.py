@@ -31,11 +31,15 @@ class TornPoint(NamedTuple):
 
 
 class Known(NamedTuple):
-    """Film at a time of its path, with all that its way on from there depends on."""
+    """Film at a time of its path, with all that its way on from there depends on.
+
+    `events` are the times [s], on the way there, at which it tore, healed, or its edge turned.
+    """
 
     point: TornPoint
     cavity: Cavity
     step: float
+    events: tuple[float, ...] = ()
 
 
 def torn_points(
@@ -82,15 +86,17 @@ def _after(
     rtol: float,
 ) -> Known:
     """Film at a later time [s]."""
-    begin, ((_, total, *_), cavity, step) = start
-    last = begin
+    begin, ((_, total, *_), cavity, step, _) = start
+    last, events = begin, []
     for point in along_path(law, cavity, place, begin, end, rtol, step):
         if point.impulse is None:
             total += film.newtonian_impulse(place(last)[0], place(point.time)[0])
         else:
             total += point.impulse
+        if point.cavity.phase is not cavity.phase and begin < point.time < end:
+            events.append(point.time)
         cavity, last, step = point.cavity, point.time, point.step
-    return Known(_point(film, law, cavity, place, end, total), cavity, step)
+    return Known(_point(film, law, cavity, place, end, total), cavity, step, tuple(events))
 
 
 def _point(

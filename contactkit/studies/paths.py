@@ -14,8 +14,8 @@ from ..accuracy import Accuracy
 from ..errors import DescriptionError
 from ..files.structure import field_value, renamed
 from ..reading.limits import check_limit
+from ..scene.effect import Effect
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
-from ..separation.effects.registry import Effect
 
 __all__ = [
     "Axis",

@@ -13,7 +13,7 @@ from typing import Any
 from attrs import evolve
 
 from ..accuracy import Accuracy
-from ..contact.chain import downwards, imposed
+from ..contact.chain import downwards
 from ..errors import ContactkitError, ValidityWarning
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from .paths import Axis, Scene, Vary, axes, changed, values_at
@@ -174,6 +174,6 @@ def _ordered(base: Piece, chain: list[Task]) -> list[Task]:
     """Loads of a contact downwards; as they are where one is refused, which its row will state."""
     with suppress(ContactkitError):
         scenes = [changed(base.scene, base.accuracy, task.values).scene for task in chain]
-        loads = [imposed(one.loading).value for one in scenes if isinstance(one, ContactScene)]
+        loads = [one.loading.quantity.value for one in scenes if isinstance(one, ContactScene)]
         return [chain[i] for i in downwards(loads, scenes[0])]
     return chain

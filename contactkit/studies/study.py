@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, overload
 from attrs import evolve
 
 from ..accuracy import Accuracy
-from ..contact.chain import downwards, imposed
+from ..contact.chain import downwards
 from ..contact.plan import unprepared_plan
 from ..errors import (
     ContactkitError,
@@ -262,7 +262,7 @@ class _Run:
         """Build the scene of a point, so that an invalid value is refused before any solve."""
         made = changed(self.scene, self.accuracy, values)
         if isinstance(made[0], ContactScene):
-            self.loads[index] = imposed(made[0].loading).value
+            self.loads[index] = made[0].loading.quantity.value
         return Task(index, values, self.store.key(*made) if self.store is not None else "")
 
     def _fetch(self, store: Store, task: Task) -> None:

@@ -43,7 +43,7 @@ TOPICS = (
         "Effects of separation and sliding",
         _of("separation", "effects", "sliding.effects"),
     ),
-    Topic("contact-effects", "Effects of contact", ("contact.effects", "effects")),
+    Topic("contact-effects", "Effects of contact", ("contact.effects", "kinds")),
     Topic("run", "Planning and solving", ("planning", "accuracy", "contact", "separation")),
     Topic(
         "results",

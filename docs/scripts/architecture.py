@@ -21,6 +21,8 @@ ACROSS = {
         "app": 0.5,
         "fmu": 0.5,
         "models": 0.6,
+        "benchmarks": 0.3,
+        "models report": 0.6,
         "studies": 0.12,
         "plot": 0.97,
     },

@@ -114,7 +114,7 @@ def ratio_table() -> str:
         ),
         substrate=ck.load_material("al-mg"),
     )
-    hard = ck.HardnessLimit(rule="constant", hardness=3e9)
+    hard = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=3e9))
     plain, base = timed(*rough_scene(512, 0.05))
     rows = [("half-space", f"{plain.work.n_operator_applications}", f"{base:.2f}", "1")]
     for label, run, seconds in (

@@ -10,7 +10,7 @@ from validation_tables import grid
 
 import contactkit as ck
 from contactkit import data
-from contactkit.files.unstructure import SURFACE_KINDS
+from contactkit.kinds import SURFACES
 from contactkit.models.library import bundled_scene
 
 DATA = Path(data.__path__[0])
@@ -21,7 +21,7 @@ FACES = {"flat", "sphere"}  # described with the separation scenes
 def surface_kinds() -> list[tuple[str, type]]:
     """Shapes that a file may name, except those of separation scenes."""
     without = FACES | ONLY_IN_PYTHON
-    return [(name, kind) for name, kind in SURFACE_KINDS.items() if name not in without]
+    return [(name, kind) for name, kind in SURFACES.by_name.items() if name not in without]
 
 
 def _comments(path: Path) -> Iterable[tuple[str, str]]:

@@ -11,7 +11,7 @@ from typing import Any
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.liquids.liquid import LAWS
+from contactkit.kinds import TEMPERATURE_LAWS
 from contactkit.units import celsius, cSt
 
 
@@ -41,7 +41,7 @@ def law_table() -> str:
     """Temperature laws against values from other sources."""
 
     def oil(low: float, high: float) -> Callable[[float], float]:
-        kind = LAWS[0]
+        kind = TEMPERATURE_LAWS[0]
         made: Any = kind(
             temperature_1=celsius(40.0),
             kinematic_viscosity_1=low * cSt,

@@ -64,7 +64,7 @@ def scene(case: dict[str, Any]) -> ck.SeparationScene:
         interface=ck.Interface(lower=face, upper=face, meniscus=film),
         loading=loading,
         effects=(
-            ck.MeniscusForce(profile="as-published", radius="disc"),
+            ck.MeniscusForce(profile=ck.AsPublished(radius="disc")),
             ck.ViscousForce(),
             *limit,
         ),

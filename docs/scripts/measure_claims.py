@@ -117,7 +117,7 @@ def layers_table() -> str:
 
 def yield_table() -> str:
     """Maximum displacement of a homogeneous body beyond the onset of plastic flow."""
-    bound = ck.HardnessLimit(rule="constant", hardness=0.05 * MODULUS)
+    bound = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=0.05 * MODULUS))
     rows = []
     for pressure in (1e-4, 1e-3, 2e-3, 4e-3, 8e-3):
         runs = [

@@ -43,7 +43,7 @@ def lines_of(name: str) -> Lines:
 
 
 def place(name: str, point: Point) -> tuple[float, str]:
-    """Where a point is drawn, and what is written beside it."""
+    """Abscissa of a point, and the text beside it."""
     work = point.counts["convolutions"]
     if name == OVER_PIXELS:
         return float(point.label.split()[0]), f"{work}"

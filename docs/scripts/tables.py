@@ -32,7 +32,6 @@ from validation_tables import (
 )
 
 import contactkit as ck
-from contactkit.contact.effects.attraction_laws import ATTRACTION_LAWS
 from contactkit.contact.effects.base import (
     Attraction,
     Compliance,
@@ -42,7 +41,6 @@ from contactkit.contact.effects.base import (
     Observer,
     PressureBound,
 )
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.fmu.framework.ports import Port
 from contactkit.fmu.framework.slave import PortSlave
 from contactkit.fmu.slaves.contact_stop import ContactStop
@@ -50,7 +48,18 @@ from contactkit.fmu.slaves.stiction_force import StictionForce
 from contactkit.fmu.slaves.stiction_mass import StictionMass
 from contactkit.fmu.slaves.tip_contact import TipContact
 from contactkit.fmu.slaves.valve_drive import ValveDrive
-from contactkit.liquids.liquid import LAWS
+from contactkit.kinds import (
+    ATTRACTION_LAWS,
+    CONTACT_EFFECTS,
+    CONTACT_LOADINGS,
+    HARDNESS_RULES,
+    MENISCUS_PROFILES,
+    SEPARATION_EFFECTS,
+    SEPARATION_LOADINGS,
+    SLIDING_EFFECTS,
+    SLIDING_LOADINGS,
+    TEMPERATURE_LAWS,
+)
 from contactkit.models.end_stop.faces import StopFaces
 from contactkit.models.injector.coil import Coil
 from contactkit.models.injector.scene import Study
@@ -59,10 +68,8 @@ from contactkit.models.micromirror.electrostatics import Electrode
 from contactkit.models.micromirror.mirror import Hinge, SpringTips, Waveform
 from contactkit.models.micromirror.scene import MirrorStudy
 from contactkit.scene.interface import Body
-from contactkit.scene.loading import CONTACT_LOADINGS, SEPARATION_LOADINGS, SLIDING_LOADINGS
 from contactkit.separation.effects.base import Effect, FilmEnd, FilmLimit, SeparationForce
-from contactkit.separation.effects.registry import SEPARATION_EFFECTS
-from contactkit.separation.sliding.effects import SLIDING_EFFECTS, SlidingForce
+from contactkit.separation.sliding.effects import SlidingForce
 
 FMUS: Mapping[str, type[PortSlave]] = {
     "stiction-mass": StictionMass,
@@ -75,7 +82,12 @@ DOCS = Path(__file__).parents[1]
 MARK = re.compile(r"(<!-- table: ([\w -]+) -->\n)(.*?)(<!-- end of table -->)", re.DOTALL)
 
 
-FACTORIES = {ck.Flat: "flat, no rim", Body: "rigid and flat", ck.Window: "periodic"}
+FACTORIES = {
+    ck.Flat: "flat, no rim",
+    Body: "rigid and flat",
+    ck.Window: "periodic",
+    ck.ContinuousHardness: '`"continuous"`',
+}
 ROLES: Mapping[type, str] = {
     SeparationForce: "force",
     FilmLimit: "limit",
@@ -190,7 +202,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "shapes": lambda: named((("flat", ck.Flat), ("sphere", ck.Sphere)), "shape"),
     "meniscus": lambda: keys(ck.Meniscus),
     "liquid": lambda: keys(ck.Liquid),
-    "laws": lambda: named([(law.kind, law) for law in LAWS], "law"),
+    "laws": lambda: named([(law.kind, law) for law in TEMPERATURE_LAWS], "law"),
     "separation loadings": lambda: named(((k.kind, k) for k in SEPARATION_LOADINGS), "kind"),
     "contact loadings": lambda: named(((k.kind, k) for k in CONTACT_LOADINGS), "kind"),
     "sliding loading": lambda: named(((k.kind, k) for k in SLIDING_LOADINGS), "kind"),
@@ -201,6 +213,8 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "sliding effect keys": lambda: named([(kind.name, kind) for kind in SLIDING_EFFECTS], "effect"),
     "sliding effects": lambda: effect_table(SLIDING_EFFECTS),
     "contact effect keys": lambda: named([(k.name, k) for k in CONTACT_EFFECTS], "effect"),
+    "hardness rules": lambda: named([(one.kind, one) for one in HARDNESS_RULES], "kind"),
+    "meniscus profiles": lambda: named([(k.kind, k) for k in MENISCUS_PROFILES], "kind"),
     "attraction laws": lambda: named([(law.kind, law) for law in ATTRACTION_LAWS], "law"),
     "contact effects": lambda: effect_table(CONTACT_EFFECTS),
     "tangential step": lambda: keys(ck.TangentialStep),

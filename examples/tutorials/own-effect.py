@@ -71,10 +71,10 @@ class ResidualMagnetism(SeparationForce):
         )
 
 
-ck.register_effect(ResidualMagnetism)
+ck.register(ResidualMagnetism)
 
 # %% [markdown]
-# `needs_film = False` says that the force stays when the film has broken. After `register_effect` it is an
+# `needs_film = False` says that the force stays when the film has broken. After `register` it is an
 # effect as any other.
 #
 # ## Use it
@@ -157,7 +157,7 @@ with tempfile.TemporaryDirectory() as folder:
 #
 # - A wrong value, `closed_force=-8.0`: the message names field, value and unit.
 # - `lacks(self, scene)`: what a scene must have for your force.
-# - Give your package the entry point `contactkit.effects`, and no one has to call `register_effect`:
+# - Give your package the entry point `contactkit.effects`, and no one has to call `register`:
 #   [own effect](../how-to/own-effect.md).
 #
 # Every hook of the class: `CONTRIBUTING.md` of the repository; where it is called:

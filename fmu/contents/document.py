@@ -12,9 +12,9 @@ from attrs import field, fields, frozen, has
 
 from ..._version import __version__
 from ...errors import ContactkitError
+from ...kinds import SEPARATION_EFFECTS
 from ...scene.effect import choices
 from ...scene.scenes import SeparationScene
-from ...separation.effects.registry import SEPARATION_EFFECTS
 from ..framework.ports import Port, Value
 from .icon import icon_svg
 

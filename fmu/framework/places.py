@@ -42,13 +42,13 @@ class Place:
     nothing : optional
         Value that stands for None, or for an effect that is not there.
     words : mapping, optional
-        Text in the scene by member of an enumeration.
+        Value in the scene by member of an enumeration; of others the parameter has `nothing`.
     """
 
     paths: tuple[str, ...] = field(converter=_as_tuple)
     effect: type | None = None
     nothing: Any = None
-    words: Mapping[IntEnum, str] = field(factory=dict)
+    words: Mapping[IntEnum, Any] = field(factory=dict)
 
     @property
     def fields(self) -> frozenset[str]:
@@ -67,8 +67,12 @@ class Place:
             paths = self.paths if owner is not None else ()
             found = [reduce(getattr, path.split("."), owner) for path in paths]
         value = min((one for one in found if one is not None), default=self.nothing)
-        member = next((one for one, text in self.words.items() if text == value), value)
-        return member.name if isinstance(member, IntEnum) else member
+        # A choice with other fields is read as the same choice: the caller names the difference.
+        alike = [m for m, one in self.words.items() if one == value]
+        alike += [m for m, one in self.words.items() if has(type(one)) and type(one) is type(value)]
+        if alike:
+            return alike[0].name
+        return self.nothing if self.words or isinstance(value, str) else value
 
     def value_in_scene(self, value: Any) -> Any:
         """Value of the field for one of the parameter."""

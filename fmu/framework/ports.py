@@ -282,7 +282,7 @@ STEP_LIMIT = "max_steps"
 """Parameter that bounds the internal steps of one communication step."""
 
 PYTHON_STEPS, NATIVE_STEPS = 30_000, 100_000
-"""What it is if it is not set: at most some seconds in Python, and 0.1 to 0.2 s in C.
+"""What it is if it is not set: at most some seconds in Python (1.5 s of a tip), 0.1 to 0.2 s in C.
 
 In one step of 1 s a pull on a stiff film takes 100 to 250, one that tears it 5000, and 80 swings
 on a spring 20 000; three to five times as many with ``rtol = 1e-11``.

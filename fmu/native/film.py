@@ -28,11 +28,10 @@ FINE = Accuracy(time_rtol=1e-11)
 
 # Final gaps up to which laws without an end are tabulated; beyond, their last power goes on. A
 # motion in a host rarely goes farther than four; forces that cost no digits there (static ones) are
-# cheap to 100.
+# cheap to 100. So are films on uneven faces, which are no power of the gap yet where a disc is one.
 _FAR = 4.0
 _FARTHER = 100.0
 _PROBES = 65  # gaps at which a law is asked how it depends on the speed
-_MOST_LAWS = 8  # of one film, in the records of the kernel
 _INF = math.inf
 
 
@@ -160,10 +159,10 @@ def _film(common: _Common, fraction: float) -> Film:
     shape = viscous_film(prepared) if is_liquid else None
     disc = shape if can_tear(made.scene) else None
     laws = [law for effect in forces for law in _laws(common, effect, film.laws[type(effect)])]
-    if len(laws) > _MOST_LAWS:
+    if len(laws) > Film.most("laws"):
         raise PlanError(
-            f"{len(laws)} tables of forces are more than the {_MOST_LAWS} of a native FMU; a force "
-            "that acts at rest and depends on the speed counts twice"
+            f"{len(laws)} tables of forces are more than the {Film.most('laws')} of a native FMU; "
+            "a force that acts at rest and depends on the speed counts twice"
         )
     return Film(
         end=min(law.end for law in film.laws.values()),
@@ -248,7 +247,8 @@ def _law_table(
     lowest, final, high = common.lowest, common.final_gap, min(law.end, law.known_to)
     stays = math.isfinite(high)
     if not stays:
-        high = (_FARTHER if rate is Rate.AT_REST else _FAR) * final
+        is_power = rate is not Rate.AT_REST and common.plan.scene.interface.has_discs
+        high = (_FAR if is_power else _FARTHER) * final
     folds = {high} if high == law.end else set[float]()
     inside = {kink for kink in law.kinks if lowest < kink < high}
     if lowest < law.release < high:

@@ -14,9 +14,9 @@ from attrs import evolve
 
 from ...errors import DescriptionError
 from ...scene.scenes import SeparationScene
+from ...separation.effects.adhesion import AdhesiveContact
 from ...separation.effects.prepared import PreparedScene
-from ...separation.effects.registry import AdhesiveContact, TensionLimit, ViscousForce
-from ...separation.effects.viscous import keeps_radius
+from ...separation.effects.viscous import TensionLimit, ViscousForce, keeps_radius
 from ..framework.places import read
 from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
 from ..slaves.stiction_mass import PLACES

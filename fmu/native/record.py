@@ -2,7 +2,7 @@
 
 A class that derives from `Record` is three things at once: values by name, their order and ranges
 in a file of numbers, and the struct of the kernel with the function that reads it. Each kind of
-member knows how its value is checked, written and read back here, and its text in C.
+member knows how its value is checked and written here, and its text in C.
 """
 
 from __future__ import annotations
@@ -11,9 +11,8 @@ import math
 import re
 import sys
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from enum import IntEnum
-from typing import Any, ClassVar, NamedTuple, TypeVar
+from typing import Any, ClassVar, NamedTuple
 
 from attrs import Attribute, field, fields, frozen
 
@@ -46,37 +45,6 @@ __all__ = [
 MOST_NODES = 1_000_000
 """Most nodes of a table; a file that says more was not written here."""
 
-R = TypeVar("R", bound="Record")
-
-
-class Numbers:
-    """Numbers of a file, taken one by one, and the number of nodes of the record they are of."""
-
-    def __init__(self, numbers: Sequence[float]) -> None:
-        self._numbers, self._place, self.nodes = numbers, 0, 0
-
-    @property
-    def left(self) -> int:
-        """Number of those not yet taken."""
-        return len(self._numbers) - self._place
-
-    def next(self) -> float:
-        """Return the next number."""
-        if not self.left:
-            raise DescriptionError(
-                "numbers of a record", self._place, "be more: they are cut short"
-            )
-        self._place += 1
-        return self._numbers[self._place - 1]
-
-    def count(self, low: int, high: int) -> int:
-        """Return the next number, which is whole."""
-        value = self.next()
-        if not (low <= value <= high and value == int(value)):
-            name = f"number {self._place} of a record"
-            raise DescriptionError(name, value, f"be whole, from {low} to {high}")
-        return int(value)
-
 
 class Kind(ABC):
     """Kind of a member: the range of its values, their numbers in a file, and its text in C."""
@@ -93,10 +61,6 @@ class Kind(ABC):
     @abstractmethod
     def numbers(self, value: Any) -> list[float]:
         """Numbers of a value, in the order of the file."""
-
-    @abstractmethod
-    def read(self, source: Numbers) -> Any:
-        """Value of the next numbers of a file."""
 
     @abstractmethod
     def declaration(self, name: str) -> str:
@@ -126,10 +90,6 @@ class Real(Kind):
     def numbers(self, value: Any) -> list[float]:
         """See `Kind`."""
         return [value]
-
-    def read(self, source: Numbers) -> Any:
-        """See `Kind`."""
-        return source.next()
 
     def declaration(self, name: str) -> str:
         """See `Kind`."""
@@ -162,10 +122,6 @@ class Whole(Kind):
         """See `Kind`."""
         return [float(value)]
 
-    def read(self, source: Numbers) -> Any:
-        """See `Kind`."""
-        return self.type(source.count(self.low, self.high))
-
     def declaration(self, name: str) -> str:
         """See `Kind`."""
         return f"int {name};"
@@ -195,10 +151,6 @@ class Part(Kind):
         found: list[float] = value.numbers()
         return found
 
-    def read(self, source: Numbers) -> Any:
-        """See `Kind`."""
-        return self.record.read(source)
-
     def declaration(self, name: str) -> str:
         """See `Kind`."""
         return f"{c_name(self.record)} {name};"
@@ -224,10 +176,6 @@ class Maybe(Part):
     def numbers(self, value: Any) -> list[float]:
         """See `Kind`."""
         return [0.0] if value is None else [1.0, *super().numbers(value)]
-
-    def read(self, source: Numbers) -> Any:
-        """See `Kind`."""
-        return super().read(source) if source.count(0, 1) else None
 
     def declaration(self, name: str) -> str:
         """See `Kind`."""
@@ -260,10 +208,6 @@ class Several(Kind):
     def numbers(self, value: Any) -> list[float]:
         """See `Kind`."""
         return [float(len(value)), *(x for one in value for x in self.kind.numbers(one))]
-
-    def read(self, source: Numbers) -> Any:
-        """See `Kind`."""
-        return tuple(self.kind.read(source) for _ in range(source.count(self.least, self.most)))
 
     def declaration(self, name: str) -> str:
         """See `Kind`."""
@@ -305,10 +249,6 @@ class Column(Kind):
     def numbers(self, value: Any) -> list[float]:
         """See `Kind`."""
         return [*value]
-
-    def read(self, source: Numbers) -> Any:
-        """See `Kind`; its record has told how long it is."""
-        return tuple(source.next() for _ in range(source.nodes))
 
     def declaration(self, name: str) -> str:
         """See `Kind`."""
@@ -411,8 +351,6 @@ class Record:
     ...     ends: tuple[float, ...] = several(Real(0.0), "gaps [m]", most=2)
     >>> Spring(stiffness=2.0, ends=(0.5,)).numbers()
     [2.0, 1.0, 0.5]
-    >>> Spring.of([2.0, 1.0, 0.5])
-    Spring(stiffness=2.0, ends=(0.5,))
     """
 
     derived: ClassVar[tuple[str, ...]] = ()
@@ -458,32 +396,6 @@ class Record:
                 found.append(float(len(getattr(self, one.name))))
             found += one.kind.numbers(getattr(self, one.name))
         return found
-
-    @classmethod
-    def of(cls: type[R], numbers: Sequence[float]) -> R:
-        """Record of the numbers of a file, and of no others.
-
-        Raises
-        ------
-        DescriptionError
-            If there are fewer or more, or a member is out of range.
-        """
-        source = Numbers(numbers)
-        made = cls.read(source)
-        if source.left:
-            expected = f"be {source.left} fewer: its last member ends before"
-            raise DescriptionError(f"numbers of a {cls.__name__}", len(numbers), expected)
-        return made
-
-    @classmethod
-    def read(cls: type[R], source: Numbers) -> R:
-        """Record of the next numbers of a file."""
-        found, columns = dict[str, Any](), cls.columns()
-        for one in cls.members():
-            if columns and one == columns[0]:
-                source.nodes = source.count(2, MOST_NODES)
-            found[one.name] = one.kind.read(source)
-        return cls(**found)
 
 
 def c_name(record: type) -> str:

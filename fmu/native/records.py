@@ -46,7 +46,7 @@ class Scale(IntEnum):
 
 
 class Rate(IntEnum):
-    """How a force depends on the speed; limits of the liquid bound the last one."""
+    """Dependence of a force on the speed; limits of the liquid bound the last one."""
 
     AT_REST = 0
     PER_SPEED = 1

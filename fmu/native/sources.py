@@ -19,8 +19,7 @@ from ...errors import DescriptionError
 from ..framework.toolchain import fmi_headers
 from .data import CAUSALITIES, TYPES, Contents
 from .models import DISCRETE, MODELS, VARIABLES, enumerations
-from .record import MOST_NODES, Column, Record, Several, c_name
-from .records import Rate, Scale
+from .record import MOST_NODES, Column, Record, Several, Whole, c_name
 
 __all__ = ["description_sources", "kernel_sources", "layout"]
 
@@ -75,7 +74,7 @@ def _declarations() -> tuple[str, ...]:
         _enum("causalities of variables", CAUSALITIES),
         _enum("variables", _distinct([*VARIABLES, "variables"])),
         f"enum {{ CK_DISCRETE = {len(DISCRETE)} }}; /* outputs that change at events only */\n",
-        *map(_members, (*enumerations(), Scale, Rate)),
+        *(_members(one) for one in (*enumerations(), *_own_enumerations())),
         _enum("most of several members", {f"most_{name}": n for name, n in _mosts().items()}),
         "typedef struct ck_reader ck_reader;\n",
         *map(_struct, _records()),
@@ -153,6 +152,13 @@ def _records() -> tuple[type[Record], ...]:
         yield record
 
     return tuple(dict.fromkeys(below(Contents)))
+
+
+def _own_enumerations() -> tuple[type[IntEnum], ...]:
+    """Enumerations that members of the records are of, each once."""
+    kinds = [one.kind for record in _records() for one in record.members()]
+    types = [kind.type for kind in kinds if isinstance(kind, Whole)]
+    return tuple(dict.fromkeys(one for one in types if issubclass(one, IntEnum)))
 
 
 def _mosts() -> dict[str, int]:

@@ -23,13 +23,9 @@ from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat
 from ...separation.effects.base import FilmStatus, LimitKind, SeparationEffect, effects_of
-from ...separation.effects.registry import (
-    MeniscusForce,
-    Rupture,
-    ShearLimit,
-    TensionLimit,
-    ViscousForce,
-)
+from ...separation.effects.meniscus import AsPublished, MeniscusForce
+from ...separation.effects.rupture import Rupture
+from ...separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce
 from ...separation.motion.advance import advance
 from ...separation.motion.state import MotionState, Pull, outputs, restored_state, start
 from ...separation.plan import Plan, plan
@@ -229,7 +225,7 @@ PLACES: Mapping[str, Place] = {
         words={
             MeniscusLaw.EXACT: "exact",
             MeniscusLaw.ARC: "arc",
-            MeniscusLaw.PUBLISHED: "as-published",
+            MeniscusLaw.PUBLISHED: AsPublished(radius="disc"),
         },
     ),
     "tau_lim": Place("strength", ShearLimit, nothing=0.0),
@@ -282,12 +278,7 @@ def scene_of(values: Mapping[str, Any]) -> SeparationScene:
     limit = tension_limit(values)
     law = values["meniscus_law"] if values["gamma"] > 0.0 else MeniscusLaw.NONE
     made = write(PLACES, _FILM, {**values, "meniscus_law": MeniscusLaw(law)})
-    # The law PUBLISHED is that of an upright disc, as documented.
-    effects = [
-        evolve(e, radius="disc") if isinstance(e, MeniscusForce) and e.takes_printed() else e
-        for e in made.effects
-    ]
-    return evolve(made, effects=(*effects, limit) if limit is not None else tuple(effects))
+    return made if limit is None else evolve(made, effects=(*made.effects, limit))
 
 
 def mass_values(scene: SeparationScene) -> dict[str, Any]:
@@ -332,15 +323,13 @@ _NOT_HELD = (
 
 
 def _same_form(scene: SeparationScene) -> SeparationScene:
-    """Scene written as the parameters write it: one rim, and no choice without an effect."""
+    """Scene written as the parameters write it: one rim, and no rupture beside the exact bridge."""
     interface, film = scene.interface, scene.effect(MeniscusForce)
     rim = Flat(radius=interface.rim_radius)
-    is_exact = film is not None and film.profile == "exact"
+    is_exact = film is not None and film.form == "exact"
     effects: list[SeparationEffect] = []
     for effect in effects_of(scene):
-        if isinstance(effect, MeniscusForce) and effect.profile != "as-published":
-            effects.append(evolve(effect, pulled="lower", radius="arc"))
-        elif isinstance(effect, TensionLimit):
+        if isinstance(effect, TensionLimit):
             effects += filter(None, (as_written(effect),))
         elif not (is_exact and effect == Rupture()):  # the exact bridge breaks by itself
             effects.append(effect)

@@ -45,11 +45,9 @@ from ...scene.loading import ImposedForce
 from ...scene.meniscus import Meniscus
 from ...scene.scenes import SeparationScene
 from ...scene.surfaces import Flat, Sphere
-from ...separation.effects.registry import (
-    MeniscusForce,
-    VanDerWaalsForce,
-    ViscousForce,
-)
+from ...separation.effects.adhesion import VanDerWaalsForce
+from ...separation.effects.meniscus import MeniscusForce
+from ...separation.effects.viscous import ViscousForce
 from ...separation.motion.state import restored_state
 from ...separation.plan import Plan
 from ..framework.places import Place, differences, read, write

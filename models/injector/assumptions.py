@@ -12,7 +12,8 @@ from types import MappingProxyType
 
 from attrs import evolve
 
-from ...separation.effects.registry import SeparationEffect, TensionLimit
+from ...separation.effects.base import SeparationEffect
+from ...separation.effects.viscous import TensionLimit
 from ...studies.sensitivity import Range
 from .scene import InjectorScene
 

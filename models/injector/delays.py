@@ -15,7 +15,7 @@ from attrs import evolve
 from scipy.interpolate import CubicHermiteSpline
 
 from ...numerics.roots import bracketed_root
-from ...separation.effects.registry import ViscousForce
+from ...separation.effects.viscous import ViscousForce
 from ...separation.plan import Plan, plan
 from .monolithic import MonolithicResult, simulate
 from .scene import InjectorScene, end_stop_faces

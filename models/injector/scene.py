@@ -10,7 +10,8 @@ from ...errors import DescriptionError
 from ...scene.interface import Interface
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
-from ...separation.effects.registry import SeparationEffect, TensionLimit
+from ...separation.effects.base import SeparationEffect
+from ...separation.effects.viscous import TensionLimit
 from ...units import celsius, si
 from ...validators import as_tuple, finite, part, positive
 from ..device import Device

@@ -322,6 +322,8 @@ def _exchange(
     dt = end - time
     volts = electrode_volts(mirror.waveform, 0.5 * (time + end))
     known = row[SIGNALS.index("force_plus")] - row[SIGNALS.index("force_minus")]
+    # Gauss-Seidel with an extrapolated start: the tips get a parabola through the roots' height and
+    # speed now and the height ahead, so that the error falls with the square of the step.
     ahead, _ = mirror_step(mirror, tilt, rate, volts, known, slope, dt)
     mean = last = 0.0
     for tip, side in zip(tips, (1.0, -1.0), strict=True):

@@ -103,7 +103,16 @@ def landing_time(flight: Flight, root: Root, left: float) -> float | None:
         )
     pieces = max(1, math.ceil(16.0 * swings))
     low, sinking, near = 0.0, sinks(0.0) > 0.0, 1e-16 * left
-    for i in range(1, pieces + 1):
+    i = 0
+    while i < pieces:
+        reach = swing * math.exp(-flight.decay * low)
+        out = _out_of_reach(root.after(low), flight.rest - reach) * pieces / left
+        if out >= 1.0:  # nothing lands in these pieces
+            i += math.floor(min(out, pieces - i))
+            low = left * i / pieces
+            sinking = sinks(low) > 0.0
+            continue
+        i += 1
         high = left * i / pieces
         if over(high) <= 0.0 and (over(low) > 0.0 or sinking):
             return first_true(lands, low, high, atol=near)
@@ -114,3 +123,26 @@ def landing_time(flight: Flight, root: Root, left: float) -> float | None:
                 return first_true(lands, low, bottom, atol=near)
         low, sinking = high, falls
     return None
+
+
+def _out_of_reach(root: Root, reach: float) -> float:
+    """Time [s] for which a root stays higher than `-reach` [m], the farthest a tip swings down.
+
+    Inf for good; the swing only decays, so that nothing lands before.
+
+    Examples
+    --------
+    >>> _out_of_reach(Root(2.0, -1.0), -1.0)
+    1.0
+    >>> _out_of_reach(Root(2.0, -1.0, 0.5000001), -1.0)
+    inf
+    """
+    above, speed, half = root.height + reach, root.speed, 0.5 * root.acceleration
+    if above <= 0.0:
+        return 0.0
+    inside = speed * speed - 4.0 * half * above
+    if inside < 0.0:
+        return math.inf
+    # The first positive root of above + speed t + half t^2, without cancellation.
+    bottom = math.sqrt(inside) - speed
+    return 2.0 * above / bottom if bottom > 0.0 else math.inf

@@ -27,7 +27,7 @@ from ...scene.interface import Body, Interface
 from ...scene.loading import Approach
 from ...scene.materials import Material
 from ...scene.scenes import ContactScene, SeparationScene
-from ...scene.surfaces import Paraboloid, Sphere
+from ...scene.surfaces import Paraboloid
 from ...scene.window import Window
 
 __all__ = ["TipLanding", "land", "tip_faces"]
@@ -66,20 +66,21 @@ def tip_faces(
     InfeasibleError
         If it is too blunt, or the approach too deep, for a paraboloid: beyond R/5.
     """
-    apex = tip.interface.upper.surface
-    if not isinstance(apex, Sphere):
+    curvature = tip.interface.upper.surface.curvature
+    if not curvature:
         raise PlanError("a landing needs the radius of the apex: interface.upper as a sphere")
-    if not 0.0 < most <= 0.2 * apex.radius:
+    radius = 1.0 / curvature
+    if not 0.0 < most <= 0.2 * radius:
         raise InfeasibleError(
-            f"an approach of {most:g} m is beyond a fifth of the radius {apex.radius:g} m, where "
+            f"an approach of {most:g} m is beyond a fifth of the radius {radius:g} m, where "
             "small slopes end; ask for less"
         )
     scene = ContactScene(
         interface=Interface(
             lower=Body(solid=material),
-            upper=Body(surface=Paraboloid(radius=apex.radius), solid=material),
+            upper=Body(surface=Paraboloid(radius=radius), solid=material),
         ),
-        window=Window(width=3.2 * math.sqrt(2.0 * apex.radius * most), periodic=False),
+        window=Window(width=3.2 * math.sqrt(2.0 * radius * most), periodic=False),
         loading=Approach(approach=most),
         effects=(HalfSpace(), HardnessLimit(rule="material")),
     )

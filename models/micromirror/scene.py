@@ -10,9 +10,7 @@ from ...errors import DescriptionError
 from ...scene.interface import Interface
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
-from ...separation.effects.registry import (
-    SeparationEffect,
-)
+from ...separation.effects.base import SeparationEffect
 from ...separation.plan import Plan
 from ...units import celsius, si
 from ...validators import as_tuple, fraction, part, positive

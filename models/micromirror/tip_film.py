@@ -23,7 +23,8 @@ from ...accuracy import Accuracy
 from ...capillary.kelvin import kelvin_radius, laplace_pressure
 from ...errors import InfeasibleError
 from ...scene.scenes import SeparationScene
-from ...separation.effects.registry import MeniscusForce, ViscousForce
+from ...separation.effects.meniscus import MeniscusForce
+from ...separation.effects.viscous import ViscousForce
 from ...separation.plan import Plan
 from ...validity import ValidityNumber
 from .tip import free_gap, tip_plan

@@ -105,7 +105,7 @@ def test_chain_of_twenty_loads(benchmark, name, series, rtol):
     given = case(kind, N, "periodic", 5)
     effects = [ck.HalfSpace() if solid is STEEL else ck.LayeredHalfSpace()]
     if hardness is not None:
-        effects.append(ck.HardnessLimit(rule="constant", hardness=hardness))
+        effects.append(ck.HardnessLimit(rule=ck.ConstantHardness(hardness=hardness)))
     base = given.load * MODULUS * factor
     scene = ck.ContactScene(
         interface=ck.Interface(

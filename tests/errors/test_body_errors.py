@@ -11,7 +11,7 @@ from refusals import refuses
 
 import contactkit as ck
 from contactkit.adhesion.van_der_waals import pressure_between_flats, sphere_force
-from contactkit.separation.effects.registry import SEPARATION_EFFECTS
+from contactkit.kinds import SEPARATION_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -50,7 +50,7 @@ REFUSE = (
     (ck.MeniscusForce(profile="arc"),),
     (ck.MeniscusForce(profile="as-published"),),
     (VISCOUS, ck.Rupture()),
-    (VISCOUS, ck.Rupture(criterion="zero-neck")),
+    (VISCOUS, ck.Rupture(gap="zero-neck")),
     (ck.VanDerWaalsForce(closure="hamaker", **ATTRACTION),),
     (ck.AdhesiveContact(model="jkr", **STICKY),),
     (ck.AdhesiveContact(model="dmt", **STICKY),),

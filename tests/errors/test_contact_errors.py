@@ -22,7 +22,7 @@ from refusals import (
 from selection import quick
 
 import contactkit as ck
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
+from contactkit.kinds import CONTACT_EFFECTS
 from contactkit.scene.effect import as_written
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
@@ -95,8 +95,8 @@ FIELDS = [
     (ck.IslandBridges(), "film_thickness", "m", POSITIVE, [0.0, -1e-9]),
     (ck.IslandBridges(), "meniscus_height", "m", POSITIVE, [0.0, -1e-9]),
     (ck.IslandBridges(), "connectivity", "", "be 4 or 8 neighbours", [0, 6, None]),
-    (ck.HardnessLimit(), "hardness", "Pa", POSITIVE, [0.0, -1.0]),
-    (ck.HardnessLimit(), "shift", "", NON_NEGATIVE, [-0.1, None]),
+    (ck.ConstantHardness(hardness=1e9), "hardness", "Pa", POSITIVE, [0.0, -1.0]),
+    (ck.ContinuousHardness(), "shift", "", NON_NEGATIVE, [-0.1, None]),
     (FRICTION, "coefficient", "", "lie between 0 and 1000", [-0.1, 1001.0, None]),
     (FRICTION, "direction", "rad", FINITE, [None]),
     (ck.SubsurfaceStress(), "window", "", POSITIVE, [0.0, -1.0, None]),
@@ -129,7 +129,7 @@ ELSEWHERE = {
         )
     ),
 }
-OF_A_SEPARATION = {"time_rtol", "curve_rtol", "points", "max_steps"}
+OF_A_SEPARATION = {"time_rtol", "curve_rtol", "film_rtol", "points", "max_steps"}
 
 
 def misfit(thing, field, unit, expected, value):
@@ -243,14 +243,22 @@ def test_only_adhesion_carries_a_pull(name, unit):
     )
 
 
+def test_a_rule_with_a_field_that_must_be_given_is_no_word():
+    refuses(lambda: ck.HardnessLimit(rule="constant"), "HardnessLimit.rule", "hardness=...")
+    refuses(lambda: ck.HardnessLimit(rule="other"), "HardnessLimit.rule", "'other'", "literal")
+
+
 # Choices and parts --------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("build", "field", "right"),
     [
-        (lambda: ck.HardnessLimit(rule="other"), "HardnessLimit.rule", "'literal'"),
-        (lambda: ck.HardnessLimit(displacement="other"), "HardnessLimit.displacement", "'local'"),
+        (
+            lambda: ck.ContinuousHardness(displacement="other"),
+            "ContinuousHardness.displacement",
+            "'local'",
+        ),
         (lambda: ck.SubsurfaceStress(keep="other"), "SubsurfaceStress.keep", "'planes'"),
         (lambda: ck.SubsurfaceStress(reading="other"), "SubsurfaceStress.reading", "'uniform'"),
         (lambda: ck.Measured(path="x", detrend="other"), "Measured.detrend", "'curvature'"),
@@ -359,16 +367,6 @@ def test_an_effect_of_something_else_is_refused_with_the_known_ones(effect):
             (LAYERED, ck.HardnessLimit()),
             {"solid": COATED},
             ("HardnessLimit needs hardness [Pa] of 'bare'",),
-        ),
-        (
-            (HALF_SPACE, ck.HardnessLimit(rule="constant")),
-            {},
-            ("HardnessLimit needs HardnessLimit.hardness [Pa]",),
-        ),
-        (
-            (HALF_SPACE, ck.HardnessLimit(hardness=1e9)),
-            {},
-            ("HardnessLimit.hardness left out with rule='continuous' (or rule='constant')",),
         ),
         (
             (LAYERED, ck.HardnessLimit(rule="literal")),
@@ -582,9 +580,9 @@ def test_a_wave_of_less_than_two_pixels_is_refused():
     [
         (np.full((3, 3), 1e9), ("HardnessMap.values must have the (4, 5) pixels", "(3, 3)")),
         (np.full((4, 5), math.nan), ("HardnessMap.values must", "[Pa]")),
-        (-1.0, ("HardnessLimit.hardness must be positive and finite [Pa], got -1.0",)),
-        (math.nan, ("HardnessLimit.hardness must be positive and finite [Pa], got nan",)),
-        (math.inf, ("HardnessLimit.hardness must be positive and finite [Pa], got inf",)),
+        (-1.0, ("ConstantHardness.hardness must be positive and finite [Pa], got -1.0",)),
+        (math.nan, ("ConstantHardness.hardness must be positive and finite [Pa], got nan",)),
+        (math.inf, ("ConstantHardness.hardness must be positive and finite [Pa], got inf",)),
     ],
 )
 def test_press_refuses_an_impossible_hardness(hardness, parts):

@@ -27,10 +27,14 @@ SURFACES = {
 EFFECTS = {
     "none": (),
     "hardness": (ck.HardnessLimit(),),
-    "local hardness": (ck.HardnessLimit(displacement="local"),),
+    "local hardness": (ck.HardnessLimit(rule=ck.ContinuousHardness(displacement="local")),),
     "literal hardness": (ck.HardnessLimit(rule="literal"),),
-    "no hardness": (ck.HardnessLimit(rule="constant", hardness=ck.HardnessMap(np.zeros((N, N)))),),
-    "other map": (ck.HardnessLimit(rule="constant", hardness=ck.HardnessMap(np.ones((2, 3)))),),
+    "no hardness": (
+        ck.HardnessLimit(rule=ck.ConstantHardness(hardness=ck.HardnessMap(np.zeros((N, N))))),
+    ),
+    "other map": (
+        ck.HardnessLimit(rule=ck.ConstantHardness(hardness=ck.HardnessMap(np.ones((2, 3))))),
+    ),
     "stress": (ck.SubsurfaceStress(),),
     "stress far below": (ck.SubsurfaceStress(depths=(0.0, 1.0), window=1.0),),
     "friction": (ck.FrictionTraction(coefficient=1.0), ck.FrictionCoupling()),

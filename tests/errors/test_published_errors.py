@@ -138,7 +138,7 @@ def test_every_argument_says_what_it_must_be():
 # Scenes --------------------------------------------------------------------------------------
 
 PUBLISHED = ck.MeniscusForce(profile="as-published")
-ZERO_NECK = ck.Rupture(criterion="zero-neck")
+ZERO_NECK = ck.Rupture(gap="zero-neck")
 
 
 def scene(film_scene, *effects, **loading):

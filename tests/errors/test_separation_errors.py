@@ -22,7 +22,7 @@ from refusals import (
 
 import contactkit as ck
 from contactkit.files.scenes import write_whole
-from contactkit.separation.effects.registry import SEPARATION_EFFECTS
+from contactkit.kinds import SEPARATION_EFFECTS
 from contactkit.units import parse_quantity, parse_unit
 
 OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
@@ -60,6 +60,8 @@ STICKY = ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=1e9)
 
 FIELDS = [
     (ck.Flat(), "radius", "m", POSITIVE, [0.0, -1e-3]),
+    (ck.Flat(radius=1.0), "tilt", "rad", "be a pair of slopes (x, y)", [1e-3, None]),
+    (ck.Flat(radius=1.0), "crown_radius", "m", "not be zero", [0.0]),
     (ck.Sphere(radius=1.0), "radius", "m", POSITIVE, [0.0, -1e-3, None]),
     (FILM, "volume", "m3", POSITIVE, [0.0, -1e-12]),
     (MOIST, "pressure", "Pa", "be negative and finite", [0.0, 1e5]),
@@ -104,6 +106,7 @@ FIELDS = [
     (STICKY, "strength", "Pa", POSITIVE, [0.0, -1e6]),
     (ACCURACY, "time_rtol", "", "lie between 1e-11 and 0.1", [0.0, -1e-8, 1.0, 1e-14, None]),
     (ACCURACY, "curve_rtol", "", "lie between 1e-6 and 0.1", [0.0, -1e-3, 1.0, None]),
+    (ACCURACY, "film_rtol", "", "lie between 1e-6 and 0.1", [0.0, -1e-3, 1.0, None]),
     (ACCURACY, "points", "", WHOLE, [0, -5, 1.5, None]),
     (ACCURACY, "max_steps", "", WHOLE, [0, -5, 1.5, None]),
 ]
@@ -181,9 +184,9 @@ def test_what_is_imposed_is_required(given):
     [
         (ck.ViscousForce, "closure", "volume-conserving"),
         (ck.MeniscusForce, "profile", "as-published"),
-        (ck.MeniscusForce, "pulled", "lower"),
+        (ck.AsPublished, "pulled", "lower"),
         (ck.TensionLimit, "cavity", "reynolds"),
-        (ck.Rupture, "criterion", "zero-neck"),
+        (ck.Rupture, "gap", "zero-neck"),
     ],
 )
 def test_an_unknown_choice_is_refused_with_the_known_ones(effect, field, right):
@@ -757,17 +760,25 @@ def test_a_unit_that_is_half_written_is_refused(text):
     refuses(lambda: parse_unit(text), "unit must be made of known symbols")
 
 
+def test_a_choice_of_eq_3_11_is_refused_on_a_sphere(film_scene):
+    effect = ck.MeniscusForce(profile=ck.AsPublished(pulled="upper"))
+    made = film_scene(effect, lower=ck.Flat(), upper=ck.Sphere(radius=1e-3), film={"volume": 1e-12})
+    with pytest.raises(ck.PlanError, match=r"two flats for AsPublished\(pulled='upper'"):
+        ck.plan(made)
+
+
 @pytest.mark.parametrize(
-    ("effect", "upper"),
+    "build",
     [
-        (ck.MeniscusForce(pulled="upper"), None),
-        (ck.MeniscusForce(profile="arc", radius="disc"), None),
-        (ck.MeniscusForce(profile="as-published", pulled="upper"), ck.Sphere(radius=1e-3)),
+        lambda: ck.MeniscusForce(pulled="upper"),
+        lambda: ck.MeniscusForce(profile="arc", radius="disc"),
+        lambda: ck.Rupture(gap=1e-6, criterion="zero-neck"),
+        lambda: ck.HardnessLimit(rule="material", shift=0.9),
+        lambda: ck.HardnessLimit(rule="constant", hardness=1e9),
+        lambda: ck.MaterialHardness(displacement="local"),
+        lambda: ck.LiteralHardness(shift=0.1),
     ],
 )
-def test_a_choice_of_the_printed_force_is_refused_where_it_is_not_read(film_scene, effect, upper):
-    made = film_scene(effect, lower=ck.Flat(), upper=upper, film={"volume": 1e-12})
-    with pytest.raises(
-        ck.PlanError, match=r"two flats and profile=\"as-published\" for (pulled|rad)"
-    ):
-        ck.plan(made)
+def test_a_field_of_another_choice_cannot_be_written(build):
+    with pytest.raises(TypeError, match="unexpected keyword argument"):
+        build()

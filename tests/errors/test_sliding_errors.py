@@ -18,7 +18,7 @@ from refusals import (
 )
 
 import contactkit as ck
-from contactkit.separation.sliding.effects import SLIDING_EFFECTS
+from contactkit.kinds import SLIDING_EFFECTS
 
 WATER = ck.Liquid(name="water", viscosity=0.89e-3, surface_tension=0.072)
 FILM = ck.Meniscus(liquid=WATER, volume=6e-23)

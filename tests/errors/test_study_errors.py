@@ -204,7 +204,9 @@ HEIGHTS = ck.Heights(heights=np.zeros((4, 4)), pixel_size=1e-9)
         ),
         (
             contact(
-                ck.HardnessLimit(rule="constant", hardness=ck.HardnessMap(np.full((4, 4), 1e9)))
+                ck.HardnessLimit(
+                    rule=ck.ConstantHardness(hardness=ck.HardnessMap(np.full((4, 4), 1e9)))
+                )
             ),
             ("HardnessMap.values must not be an array", "result files"),
         ),

@@ -51,7 +51,7 @@ def native_fmu(folder, model, name, fmi=2, **changes):
         final=case["h_rel"],
         stiffness=start["k_s"],
         effects=(
-            ck.MeniscusForce(profile="as-published", radius="disc"),
+            ck.MeniscusForce(profile=ck.AsPublished(radius="disc")),
             ck.ViscousForce(),
             *(
                 (ck.TensionLimit(strength=case["dp_cav"], cavity="truncated"),)

@@ -87,7 +87,7 @@ def test_gaps_that_contradict_each_other_are_not_baked_in(name, start, said, tmp
 
 def test_a_force_too_rough_for_a_table_is_named():
     from contactkit.fmu.native import film as native_film
-    from contactkit.separation.effects.registry import MeniscusForce
+    from contactkit.separation.effects.meniscus import MeniscusForce
 
     class Rough:
         end, release, recontact, kinks = 1e-4, float("inf"), 0.0, ()

@@ -104,9 +104,9 @@ def _results() -> Reader:
     slid = ck.SlidingScene(
         interface=film, loading=ck.Sliding(gap=1e-6, speed=1e-3), effects=(ck.CouetteForce(),)
     )
-    coarse = ck.Accuracy(grid=8, time_rtol=1e-4, points=20)
+    coarse = ck.Accuracy(time_rtol=1e-4, points=20)
     made = {
-        "contact": ck.solve(ck.plan(pressed, coarse)),
+        "contact": ck.solve(ck.plan(pressed, ck.Accuracy(grid=8))),
         "separation": ck.simulate(ck.plan(opened, coarse)),
         "sliding": ck.simulate(ck.plan(slid, coarse)),
     }

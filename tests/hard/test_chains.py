@@ -154,7 +154,7 @@ def test_hard_loads_of_a_curve_are_those_of_single_solves():
 def test_a_curve_up_to_the_hardness_costs_no_more_than_its_points():
     """Where much is plastic the nested grids start better, and are what is used."""
     hardness = 2e10
-    plan = planned(ck.HardnessLimit(rule="constant", hardness=hardness))
+    plan = planned(ck.HardnessLimit(rule=ck.ConstantHardness(hardness=hardness)))
     pressures = hardness * np.array([0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.9, 0.999, 0.999999])
     curve, alone = curve_and_cold(plan, pressures, 1e-8)
     assert curve.applications.sum() <= MARGIN * sum(applications(one) for one in alone)
@@ -229,7 +229,7 @@ def test_a_load_far_away_starts_from_the_nested_grids(ratio):
 
 def test_pixels_at_the_bound_stay_there_in_an_extrapolation():
     """In round-off below it they would count as free."""
-    plan = planned(ck.HardnessLimit(rule="constant", hardness=2e10), pressure=3e9)
+    plan = planned(ck.HardnessLimit(rule=ck.ConstantHardness(hardness=2e10)), pressure=3e9)
     results = [ck.solve(plan.with_loading(ck.Pressing(pressure=p))) for p in (3.6e9, 3.4e9, 3.2e9)]
     cold = applications(ck.solve(plan))
     assert applications(ck.solve(plan, start=results[::-1])) <= MARGIN * cold

@@ -264,7 +264,7 @@ def test_a_map_with_holes_or_one_row_is_refused_with_the_reason(heights, says):
 @pytest.mark.parametrize("hardness", [None, 2e7])
 @pytest.mark.parametrize("periodic", [True, False], ids=["periodic", "free"])
 def test_the_approach_that_a_load_makes_gives_the_load_back(periodic, hardness):
-    limit = [ck.HardnessLimit(rule="constant", hardness=hardness)] if hardness else []
+    limit = [ck.HardnessLimit(rule=ck.ConstantHardness(hardness=hardness))] if hardness else []
     run = solved(*limit, pressure=2e6, periodic=periodic)
     back = solved(*limit, approach=run.approach, periodic=periodic)
     check(back, hardness or math.inf)
@@ -289,7 +289,7 @@ def test_an_approach_that_no_load_can_reach_is_refused():
     """In a periodic window the mean planes cannot meet; with a hardness they can."""
     with pytest.raises(ck.InfeasibleError, match=r"closes? .*gap|gap .* closed"):
         solved(approach=1e-7)
-    run = solved(ck.HardnessLimit(rule="constant", hardness=2e7), approach=1e-7)
+    run = solved(ck.HardnessLimit(rule=ck.ConstantHardness(hardness=2e7)), approach=1e-7)
     check(run, 2e7)
     assert run.mean_pressure == pytest.approx(2e7, rel=1e-12)
 
@@ -299,14 +299,16 @@ def test_an_approach_that_no_load_can_reach_is_refused():
 
 @pytest.mark.parametrize("short", [1e-3, 1e-6, 1e-9])
 def test_a_load_just_below_the_hardness_times_the_area_is_carried(short):
-    run = solved(ck.HardnessLimit(rule="constant", hardness=1e7), pressure=1e7 * (1.0 - short))
+    run = solved(
+        ck.HardnessLimit(rule=ck.ConstantHardness(hardness=1e7)), pressure=1e7 * (1.0 - short)
+    )
     check(run, 1e7)
     assert run.plastic_area / run.plan.grid.area > 1.0 - 4.0 * math.sqrt(short) - 2.0 / 48**2
 
 
 @pytest.mark.parametrize("load", [1e7, 1e7 * (1.0 + 1e-9), 1e9])
 def test_a_load_above_the_hardness_times_the_area_is_refused_before_any_work(monkeypatch, load):
-    import contactkit.contact.grid as realise
+    import contactkit.contact.grid as grid
     import contactkit.contact.prepared as prepared
 
     def never(*_args, **_kwargs):
@@ -314,9 +316,9 @@ def test_a_load_above_the_hardness_times_the_area_is_refused_before_any_work(mon
 
     monkeypatch.setattr(prepared, "ContactSolver", never)
     monkeypatch.setattr(prepared, "combined_heights", never)
-    monkeypatch.setattr(realise, "realise", never)
+    monkeypatch.setattr(grid, "realise", never)
     with pytest.raises(ck.InfeasibleError, match=r"load .* N reaches H\*A = .* N.*lower the load"):
-        made(ck.HardnessLimit(rule="constant", hardness=1e7), pressure=load)
+        made(ck.HardnessLimit(rule=ck.ConstantHardness(hardness=1e7)), pressure=load)
     with pytest.raises(ck.InfeasibleError, match=r"H\*A"):
         ck.press(rough_map((8, 8)), 1e-8, SOLID, load, hardness=1e7)
 
@@ -351,7 +353,8 @@ def test_iterations_of_the_hardness_that_run_out_say_so_and_hand_over_what_they_
     displacement, problem, monkeypatch
 ):
     monkeypatch.setattr("contactkit.contact.outer.iteration.MAX_ITERATIONS", 2)
-    plan = made(ck.HardnessLimit(displacement=displacement), lower=HARD_ON_SOFT, pressure=6e7)
+    limit = ck.HardnessLimit(rule=ck.ContinuousHardness(displacement=displacement))
+    plan = made(limit, lower=HARD_ON_SOFT, pressure=6e7)
     with pytest.raises(ck.ConvergenceError, match=problem) as caught:
         ck.solve(plan)
     reached = ck.solve(plan, throw=False)
@@ -414,7 +417,7 @@ def test_the_continuous_rule_agrees_with_the_displacement_it_leads_to(
 ):
     from contactkit.elasticity.hardness_rules import effective_hardness
 
-    limit = ck.HardnessLimit(displacement=displacement)
+    limit = ck.HardnessLimit(rule=ck.ContinuousHardness(displacement=displacement))
     run = solved(limit, lower=stack, pressure=pressure)
     hardness = run.of(ck.HardnessLimit).hardness
     check(run, hardness)

@@ -14,7 +14,7 @@ from contactkit.lubrication import squeeze_film as squeeze
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
 ARC = ck.MeniscusForce()
-PUBLISHED = ck.MeniscusForce(profile="as-published", radius="disc")
+PUBLISHED = ck.MeniscusForce(profile=ck.AsPublished(radius="disc"))
 VISCOUS = ck.ViscousForce()
 SIXTY = math.pi / 3.0
 

@@ -13,7 +13,7 @@ from contactkit.separation.motion.state import Pull, outputs, start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
-PUBLISHED = ck.MeniscusForce(profile="as-published", radius="disc")
+PUBLISHED = ck.MeniscusForce(profile=ck.AsPublished(radius="disc"))
 VISCOUS = ck.ViscousForce()
 FORCES = (PUBLISHED, VISCOUS)
 FACE = 3.175e-3

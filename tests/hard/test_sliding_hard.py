@@ -12,7 +12,7 @@ import contactkit as ck
 from contactkit.lubrication import couette_flat as sliding
 from contactkit.lubrication import couette_sphere as sliding_sphere
 from contactkit.lubrication.couette_reynolds import lubrication_factor
-from contactkit.separation.vibration import VibrationPath, panels
+from contactkit.separation.vibration.path import VibrationPath, panels
 
 
 def approx(value, rel):

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 import contactkit as ck
 from contactkit.adhesion import dmt, jkr, maugis_dugdale, van_der_waals
 from contactkit.files.scenes import structure, unstructure
+from contactkit.kinds import SEPARATION_EFFECTS
 from contactkit.separation.effects.base import SeparationForce
 from contactkit.separation.effects.prepared import prepare_scene
-from contactkit.separation.effects.registry import SEPARATION_EFFECTS
 from contactkit.separation.simulate import simulate
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")

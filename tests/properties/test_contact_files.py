@@ -12,9 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import contactkit as ck
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.contact.result import ContactResult
 from contactkit.files.results import from_bytes, to_bytes
+from contactkit.kinds import CONTACT_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -96,12 +96,16 @@ pressings = st.one_of(
     st.builds(ck.Pressing, force=decades(-9.0, 3.0)),
     st.builds(ck.Approach, approach=st.floats(-1e-6, 1e-6)),
 )
+displacements = st.sampled_from(["largest", "local"])
 hardness_rules = st.builds(
     ck.HardnessLimit,
-    rule=st.sampled_from(["continuous", "literal", "material"]),
-    shift=st.floats(0.0, 1.0),
-    displacement=st.sampled_from(["largest", "local"]),
-) | st.builds(ck.HardnessLimit, rule=st.just("constant"), hardness=stresses)
+    rule=st.one_of(
+        st.builds(ck.ContinuousHardness, shift=st.floats(0.0, 1.0), displacement=displacements),
+        st.builds(ck.LiteralHardness, displacement=displacements),
+        st.builds(ck.MaterialHardness),
+        st.builds(ck.ConstantHardness, hardness=stresses),
+    ),
+)
 tangential_steps = st.one_of(
     st.builds(ck.TangentialStep, force=decades(-9.0, 3.0), steps=st.integers(1, 9)),
     st.builds(ck.TangentialStep, displacement=lengths, direction=st.none() | st.floats(-4.0, 4.0)),
@@ -305,7 +309,7 @@ CALLED = {
     "hardness": (ck.HardnessLimit(),),
     "local hardness": (ck.HardnessLimit(rule="material"),),
     "hardness map": (
-        ck.HardnessLimit(rule="constant", hardness=ck.HardnessMap(np.full((16, 16), 4e9))),
+        ck.HardnessLimit(rule=ck.ConstantHardness(hardness=ck.HardnessMap(np.full((16, 16), 4e9)))),
     ),
     "coupled friction": (FRICTION, ck.FrictionCoupling()),
     "film": (ck.FilmMeniscus(film_thickness=1e-9),),
@@ -348,7 +352,7 @@ def test_arrays_of_a_scene_are_kept_with_the_result(tmp_path):
     parts = (ck.Paraboloid(radius=1.0), ck.Heights(heights=heights, pixel_size=(1e-6 / 16,) * 2))
     hard = ck.HardnessMap(np.linspace(3e9, 5e9, 256).reshape(16, 16))
     result = contact(
-        ck.HardnessLimit(rule="constant", hardness=hard),
+        ck.HardnessLimit(rule=ck.ConstantHardness(hardness=hard)),
         surface=ck.CombinedSurface(parts=parts),
         grid=None,
     )
@@ -358,7 +362,7 @@ def test_arrays_of_a_scene_are_kept_with_the_result(tmp_path):
     assert (loaded.heights == heights).all()
     assert loaded.pixel_size == (1e-6 / 16,) * 2
     assert loaded.checksum == parts[1].checksum
-    assert (scene.effect(ck.HardnessLimit).hardness.values == hard.values).all()
+    assert (scene.effect(ck.HardnessLimit).rule.hardness.values == hard.values).all()
     again = ck.solve(ck.plan(scene, result.plan.accuracy))
     assert again.contact_area == result.contact_area
 

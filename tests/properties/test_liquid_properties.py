@@ -10,7 +10,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from contactkit.errors import DescriptionError, ValidityWarning
-from contactkit.liquids.liquid import LAWS, Liquid
+from contactkit.kinds import TEMPERATURE_LAWS
+from contactkit.liquids.liquid import Liquid
 from contactkit.liquids.temperature_laws import LinearDensity, LinearSurfaceTension
 from contactkit.liquids.viscosity import VogelViscosity, WaltherViscosity
 from contactkit.liquids.water import IapwsSurfaceTension, KellWaterDensity
@@ -187,8 +188,8 @@ def test_a_liquid_gives_what_its_laws_give(law, density, fraction):
 def test_every_law_has_a_name_and_a_unit_of_its_own_and_units_on_its_fields():
     from attrs import fields
 
-    assert len({law.kind for law in LAWS}) == len(LAWS)
-    assert {law.unit for law in LAWS} == {"N/m", "Pa.s", "m2/s", "kg/m3"}
-    for law in LAWS:
+    assert len({law.kind for law in TEMPERATURE_LAWS}) == len(TEMPERATURE_LAWS)
+    assert {law.unit for law in TEMPERATURE_LAWS} == {"N/m", "Pa.s", "m2/s", "kg/m3"}
+    for law in TEMPERATURE_LAWS:
         for attribute in fields(law):
             assert attribute.name == "source" or attribute.metadata["unit"], attribute.name

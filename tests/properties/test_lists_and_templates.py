@@ -11,7 +11,7 @@ from contactkit.app.listing import LISTS, listing
 from contactkit.app.scenes import open_scene
 from contactkit.app.templates import KINDS, template
 from contactkit.cli import main
-from contactkit.effects import CONTACT_EFFECTS, SEPARATION_EFFECTS, SLIDING_EFFECTS
+from contactkit.kinds import CONTACT_EFFECTS, SEPARATION_EFFECTS, SLIDING_EFFECTS
 
 LOADERS = {"liquids": ck.load_liquid, "materials": ck.load_material, "scenes": open_scene}
 

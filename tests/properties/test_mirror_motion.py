@@ -111,6 +111,51 @@ def test_a_swing_that_dips_between_two_looks_is_seen():
     assert touch == pytest.approx(math.acos(-0.99999) / 1e8, rel=1e-9)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_a_landing_is_the_first_of_a_dense_look(seed):
+    """Random swings, most of them long out of reach of the site, against 256 looks a swing."""
+    rng, landed = np.random.default_rng(seed), 0
+    for _ in range(60):
+        pace, size, swings = 10 ** rng.uniform(5, 8), 10 ** rng.uniform(-9, -6), rng.uniform(1, 80)
+        decay = pace * rng.choice([0.0, 10 ** rng.uniform(-5, -1)])
+        cosine, sine, rest = size * rng.uniform(-1.0, 1.0, 3)
+        span = 2.0 * math.pi * swings / pace
+        height = max(0.0, -cosine - rest) + size * 10 ** rng.uniform(-2, 1)
+        speed = rng.choice([-1.0, 0.0, 1.0]) * size / span * 10 ** rng.uniform(-1, 1)
+        push = rng.choice([-1.0, 0.0, 1.0]) * size / span**2 * 10 ** rng.uniform(-1, 1.5)
+        time = np.linspace(0.0, span, math.ceil(256 * swings))
+        swing = cosine * np.cos(pace * time) + sine * np.sin(pace * time)
+        over = height + speed * time + 0.5 * push * time**2 + rest + np.exp(-decay * time) * swing
+        if np.abs(over).min() < 1e-3 * size and (over > 0.0).all():
+            continue  # a look may miss how it touches
+        found = landing_time(
+            Flight(rest, decay, pace, cosine, sine), Root(height, speed, push), span
+        )
+        below = np.flatnonzero(over <= 0.0)
+        assert (found is None) == (len(below) == 0)
+        if found is not None:
+            landed += 1
+            assert time[below[0] - 1] <= found <= time[below[0]]
+    assert 10 < landed < 55
+
+
+def test_a_long_flight_out_of_reach_costs_next_to_nothing():
+    """62 000 swings in Python took seconds, look by look."""
+    looks = []
+
+    class Seen(Flight):
+        def at(self, time):
+            looks.append(time)
+            return super().at(time)
+
+    span = 62_000 * 2.0 * math.pi / 1e8
+    high = Seen(rest=0.0, decay=10.0, frequency=1e8, cosine=1e-8, sine=0.0)
+    assert landing_time(high, Root(1e-6, 2e-6 / span, -4e-6 / span**2), span) is None
+    comes_down = landing_time(high, Root(1e-6, 0.0, -2.2e-6 / span**2), span)
+    assert 0.9 * span < comes_down < span
+    assert len(looks) < 1000
+
+
 def test_the_division_of_time_does_not_matter(wet):
     root = Root(-2e-8, 0.05, 1e6)
     whole = advance_tip(wet, 2e-10, landed_start(wet), root, 6e-7)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.errors import MissingExtraError
 from contactkit.export.contents import Contents
+from contactkit.kinds import CONTACT_EFFECTS
 
 xarray = pytest.importorskip("xarray")
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
@@ -46,7 +46,7 @@ def film(**changed):
 
 @pytest.fixture(scope="module")
 def pressed():
-    return contact(ck.HardnessLimit(rule="constant", hardness=2e9))
+    return contact(ck.HardnessLimit(rule=ck.ConstantHardness(hardness=2e9)))
 
 
 def test_maps_are_over_the_centres_of_pixels_with_their_units(pressed):
@@ -102,7 +102,7 @@ def test_tractions_zones_and_histories_come_along():
     assert found.slip_zone.dims == ("step", "y", "x")
     assert found.sizes["step"] == 2
     assert found.slip_force.dims == ("state",)
-    hard = ck.HardnessLimit(rule="constant", hardness=2e9)
+    hard = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=2e9))
     history = ck.PlasticHistory(pressures=(800e6,))
     found = contact(hard, history).to_xarray()
     assert found.residual_depth.dims == ("y", "x")

@@ -52,7 +52,7 @@ class Thinning(TemperatureLaw):
         """Any temperature [K]."""
         return (0.0, 1e4)
 
-    def _value(self, temperature):
+    def value_at(self, temperature):
         return self.at_zero * math.exp(-temperature / 300.0)
 
 
@@ -121,19 +121,19 @@ def with_field(scene, name, value):
 
 
 OWN = {
-    "surface": (contact(Cone(slope=0.1)), "ContactScene.interface.upper", "Measured(path="),
+    "surface": (contact(Cone(slope=0.1)), "ContactScene.interface.upper", "ck.register(Cone)"),
     "combined": (
         contact(ck.CombinedSurface(parts=(ck.Sphere(radius=1e-3), Cone(slope=0.1)))),
         r"interface\.upper\.parts\[1\]",
-        "Measured(path=",
+        "ck.register(Cone)",
     ),
     "law": (
         separation(evolve(OIL, viscosity=Thinning(temperature_min=250.0, temperature_max=400.0))),
         r"meniscus\.liquid\.viscosity",
-        "WaltherViscosity",
+        "ck.register(Thinning)",
     ),
-    "effect": (separation(effects=(Magnet(),)), r"effects\[0\]", "ck.register_effect(Magnet)"),
-    "named-as-another": (separation(effects=(Thicker(),)), r"effects\[0\]", "ck.register_effect("),
+    "effect": (separation(effects=(Magnet(),)), r"effects\[0\]", "ck.register(Magnet)"),
+    "named-as-another": (separation(effects=(Thicker(),)), r"effects\[0\]", "ck.register("),
     "undecorated": (
         contact(Undecorated(amplitude=1e-9, wavelength=1e-6)),
         r"interface\.upper",
@@ -169,7 +169,7 @@ def test_what_is_no_scene_is_refused(tmp_path):
 
 
 def test_a_registered_effect_is_written(tmp_path):
-    from contactkit.separation.effects.registry import SEPARATION_EFFECTS
+    from contactkit.kinds import SEPARATION_EFFECTS
 
     scene = separation(effects=(Magnet(pull=2.0),))
     with SEPARATION_EFFECTS.including(Magnet):

@@ -21,7 +21,9 @@ FOLDERS = {
 # From the ground up. Rooms on one floor do not know each other.
 FLOORS = [
     ["reference", "errors", "frozen", "_lazy", "_version"],
-    ["units", "extras", "validity"],
+    ["units", "extras", "validity", "installed"],
+    ["registry"],
+    ["kinds"],
     ["validators", "work_precision", "numerics", "export", "reading"],
     ["accuracy", "elasticity", "capillary", "lubrication", "adhesion", "roughness"],
     ["as_published"],
@@ -29,7 +31,7 @@ FLOORS = [
     ["liquids"],
     ["scene"],
     ["contact", "separation"],
-    ["effects", "planning"],
+    ["planning"],
     ["files"],
     ["analyses", "shortcuts"],
     ["studies"],
@@ -45,13 +47,15 @@ FLOORS = [
     ["__main__"],
 ]
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
-# Names of packages, the figures of a room, an optional package, what an FMU carries, what plans and
-# runs a kind of scene, a device and its report.
+# Names of packages, kinds, the figures of a room, an optional package, what an FMU carries, what
+# plans and runs a kind of scene, a device and its report.
 IMPORT_BY_NAME = {
+    "contactkit.benchmarks.table",
     "contactkit.models.device",
     "contactkit.models.library",
     "contactkit.planning",
     "contactkit._lazy",
+    "contactkit.registry",
     "contactkit.plot.accessors.base",
     "contactkit.numerics.fft",
     "contactkit.fmu.python.build",

@@ -13,11 +13,15 @@ HEAVY = {"numpy", "scipy", "matplotlib", "fmpy", "pythonfmu", "numba", "cattrs",
 MOST_MODULES = 70  # of contactkit itself; attrs and the standard library add some 45
 
 
-def python(code):
+def python(code, *arguments):
     """Run code in a fresh interpreter; give back what it prints as JSON."""
     environment = {**os.environ, "PYTHONWARNINGS": "error", "MPLBACKEND": "agg"}
     done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=False
+        [sys.executable, "-c", code, *arguments],
+        capture_output=True,
+        text=True,
+        env=environment,
+        check=False,
     )
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
@@ -28,7 +32,8 @@ STEPS = {
     "contactkit": "import contactkit as ck",
     "inside an FMU": """
 import contactkit.separation.plan, contactkit.separation.motion.advance
-import contactkit.separation.effects.registry, contactkit.liquids.liquid
+import contactkit.separation.effects.meniscus, contactkit.separation.effects.viscous
+import contactkit.separation.effects.rupture, contactkit.liquids.liquid
 import contactkit.capillary.arc.flat, contactkit.lubrication.squeeze_film
 import contactkit.lubrication.film_limits, contactkit.separation.integrator.radau""",
     "separation": "ck.simulate",
@@ -76,13 +81,87 @@ def test_no_extra_is_brought_along_by_the_library(brought):
     assert roots(brought["contact"]) & extras == set()
 
 
-def test_a_contact_brings_no_loop_and_no_statistics_it_does_not_call_for(brought):
-    """Neither the histories of loads nor spectra, patches and theories of rough surfaces."""
-    unused = (
-        *("contact.plastic_history", "contact.patches", "analyses.area_over_load"),
+RUN = """
+import json, sys, warnings
+import contactkit as ck
+from contactkit.planning import run
+
+warnings.simplefilter("ignore")
+found = []
+scene = ck.load_scene(sys.argv[1])
+found.append(sorted(sys.modules))
+run(ck.plan(scene, ck.Accuracy(grid=16) if hasattr(scene, "window") else None))
+found.append(sorted(sys.modules))
+print(json.dumps(found))
+"""
+OIL_FILM = """
+effects = [{ effect = "meniscus-force" }, { effect = "viscous-force" },
+           { effect = "tension-limit", strength = 1e5 }]
+[interface.lower]
+shape = "flat"
+radius = "1 mm"
+[interface.upper]
+shape = "flat"
+radius = "1 mm"
+[interface.meniscus]
+volume = 1e-11
+liquid = { name = "oil", viscosity = 0.1, surface_tension = 0.03 }
+[loading]
+kind = "imposed-speed"
+speed = "1 mm/s"
+initial_gap = "2 um"
+final_gap = "10 um"
+"""
+DRY_CONTACT = """
+effects = [{ effect = "half-space" }]
+[interface.lower]
+solid = { name = "steel", young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[interface.upper]
+shape = "gaussian-roughness"
+rms = "1 nm"
+correlation_length = "0.2 um"
+cutoff = "0.15 um"
+[window]
+width = "1 um"
+[loading]
+kind = "pressing"
+pressure = "10 MPa"
+"""
+# Rooms that a scene file does not call for, from its reading to the end of its run.
+UNUSED = {
+    "oil film": (OIL_FILM, {"contact", "elasticity", "roughness", "adhesion", "analyses"}),
+    "dry contact": (
+        DRY_CONTACT,
+        {"separation", "capillary", "lubrication", "adhesion", "as_published", "analyses"},
+    ),
+}
+# What of the rooms that it does call for a scene does without.
+LEFT_OUT = {
+    "oil film": {"separation.effects.adhesion", "separation.face.cavity"},
+    "dry contact": {
+        *(f"contact.effects.{name}" for name in ("film", "stress", "adhesion", "island_bridges")),
+        *(
+            "contact.plastic_history",
+            "contact.patches",
+            "contact.slip.load_path",
+            "elasticity.stress",
+        ),
         *("roughness.spectra", "roughness.statistics", "roughness.contact_theories"),
-    )
-    assert {f"contactkit.{name}" for name in unused} & set(brought["contact"]) == set()
+    },
+}
+
+
+@pytest.mark.parametrize("name", UNUSED)
+def test_a_scene_brings_the_rooms_it_calls_for_and_no_other(name, tmp_path):
+    text, rooms = UNUSED[name]
+    (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
+    for modules in python(RUN, str(tmp_path / "scene.toml")):
+        ours = {m.partition(".")[2] for m in modules if m.startswith("contactkit.")}
+        assert {m for m in ours if m.split(".")[0] in rooms} == set()
+        assert {
+            m for m in ours for left in LEFT_OUT[name] if f"{m}.".startswith(f"{left}.")
+        } == set()
+        assert len(ours) > 30  # else nothing was brought at all
 
 
 def test_only_plot_brings_matplotlib(brought):

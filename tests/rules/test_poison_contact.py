@@ -9,8 +9,8 @@ from poison import by_kind, label, pairwise, poison_all_but, product_of, survive
 
 import contactkit as ck
 from contactkit.contact.effects.base import ContactEffect
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.contact.solve import solve
+from contactkit.kinds import CONTACT_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -51,7 +51,7 @@ OWNED = {
         "elasticity.hardness_rules.layer_on_substrate",
     },
     ck.HardnessLimit(rule="material"): set(),
-    ck.HardnessLimit(rule="constant", hardness=1e9): set(),
+    ck.HardnessLimit(rule=ck.ConstantHardness(hardness=1e9)): set(),
     ck.PlasticHistory(pressures=(2e6, 0.0), steps=2): {"elasticity.hardness_rules.*"},
     ck.FrictionTraction(coefficient=0.2): set(),
     ck.FrictionCoupling(): {

@@ -20,10 +20,10 @@ from poison import (
 )
 
 import contactkit as ck
+from contactkit.kinds import SEPARATION_EFFECTS
 from contactkit.separation import simulate as separation
 from contactkit.separation.effects.as_published import mixed
 from contactkit.separation.effects.base import SeparationForce
-from contactkit.separation.effects.registry import SEPARATION_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -78,7 +78,7 @@ OWNED = {
     ck.TensionLimit(strength=1e4, cavity="reynolds"): {"flats": TENSION["flats"]},
     ck.ShearLimit(strength=1e3): SHEAR,
     ck.Rupture(): {"flats": EXACT_FLAT_END, "sphere": EXACT_SPHERE},
-    ck.Rupture(criterion="zero-neck"): {"flats": ARC_FLAT, "sphere": ARC_SPHERE},
+    ck.Rupture(gap="zero-neck"): {"flats": ARC_FLAT, "sphere": ARC_SPHERE},
     ck.Rupture(gap=5e-6): {"flats": set(), "sphere": set()},
 }
 # Forces of the solids stand beside those of the film: each is tried with a few of these.
@@ -287,13 +287,13 @@ HEARTS = [
         "capillary.exact.stability.stability_limit",
     ),
     (
-        (ck.ViscousForce(), ck.Rupture(criterion="zero-neck")),
+        (ck.ViscousForce(), ck.Rupture(gap="zero-neck")),
         "flats",
         "time",
         "capillary.arc.flat.zero_neck_gap",
     ),
     (
-        (ck.ViscousForce(), ck.Rupture(criterion="zero-neck")),
+        (ck.ViscousForce(), ck.Rupture(gap="zero-neck")),
         "sphere",
         "time",
         "capillary.arc.sphere.zero_neck_gap",
@@ -345,7 +345,7 @@ def test_every_effect_and_every_choice_is_poisoned():
     assert {effect for case in CASES for effect in case[0]} == {*TABLE, *OTHERS}
     solids = [effect for effect in SOLIDS if isinstance(effect, ck.AdhesiveContact)]
     assert {effect.model for effect in solids} == {"jkr", "dmt", "maugis-dugdale"}
-    assert {effect.profile for effect in OWNED if isinstance(effect, ck.MeniscusForce)} == {
+    assert {effect.form for effect in OWNED if isinstance(effect, ck.MeniscusForce)} == {
         "exact",
         "arc",
         "as-published",

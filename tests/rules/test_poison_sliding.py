@@ -10,8 +10,8 @@ import pytest
 from poison import label, poison_all_but, survives, unknown
 
 import contactkit as ck
+from contactkit.kinds import SLIDING_EFFECTS
 from contactkit.separation import simulate as separation
-from contactkit.separation.sliding.effects import SLIDING_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
+from contactkit.kinds import CONTACT_EFFECTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -272,7 +272,7 @@ def test_press_is_the_scene_in_one_line():
         loading=ck.Pressing(pressure=2e8),
         effects=(
             ck.LayeredHalfSpace(),
-            ck.HardnessLimit(rule="constant", hardness=5e9),
+            ck.HardnessLimit(rule=ck.ConstantHardness(hardness=5e9)),
         ),
     )
     same = ck.solve(ck.plan(scene))

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.contact import grid, prepared
+from contactkit.contact import prepared
 from contactkit.contact.effects.elasticity import LayeredHalfSpace
 from contactkit.contact.effects.friction import FrictionCoupling
 from contactkit.contact.effects.plasticity import HardnessLimit
 from contactkit.contact.plan import unprepared_plan
+from contactkit.roughness import random_surfaces
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -56,7 +57,7 @@ def calls(monkeypatch):
 
     count(prepared, "combined_heights")
     count(prepared, "ContactSolver")
-    count(grid, "_rough")
+    count(random_surfaces, "gaussian_exponential")
     for kind in (LayeredHalfSpace, HardnessLimit, FrictionCoupling):
         original = kind.prepare
 
@@ -71,7 +72,7 @@ def calls(monkeypatch):
 ONCE = {
     "combined_heights": 1,
     "ContactSolver": 1,
-    "_rough": 1,
+    "gaussian_exponential": 1,
     "LayeredHalfSpace": 1,
     "HardnessLimit": 1,
 }
@@ -99,7 +100,7 @@ def test_another_load_prepares_nothing(calls):
 
 
 WAVE = ck.Wave(amplitude=5e-8, wavelength=1e-6)
-VARYING = ck.HardnessLimit(shift=0.0)
+VARYING = ck.HardnessLimit(rule=ck.ContinuousHardness(shift=0.0))
 SELF_CONSISTENT = ck.FilmMeniscus(film_thickness=5e-10, self_consistent=True)
 SLIDING = (ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling())
 
@@ -108,7 +109,7 @@ SLIDING = (ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling())
     ("effects", "at_least"),
     [
         ((VARYING,), 2),
-        ((ck.HardnessLimit(shift=0.0, displacement="local"),), 2),
+        ((ck.HardnessLimit(rule=ck.ContinuousHardness(shift=0.0, displacement="local")),), 2),
         ((VARYING, *SLIDING), 3),
         ((VARYING, SELF_CONSISTENT), 3),
         ((VARYING, *SLIDING, SELF_CONSISTENT), 4),
@@ -138,7 +139,7 @@ def test_a_study_prepares_once_for_all_loads(calls):
 
 
 def test_a_load_displacement_curve_prepares_once(calls):
-    soft = ck.HardnessLimit(rule="constant", hardness=1e9)
+    soft = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=1e9))
     scene = planned(soft, periodic=False, pressure=4e8).scene
     calls.clear()
     curve = ck.load_displacement(scene, points=6, accuracy=ck.Accuracy(grid=48))

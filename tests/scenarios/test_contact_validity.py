@@ -78,7 +78,9 @@ def test_a_contact_inside_all_ranges_warns_of_nothing():
         (scene(rough(rms=1e-6)), 64, "rms slope", None),
         (scene(rough(rms=1e-6)), 64, "peak pressure over E*", None),
         (
-            scene(effects=(ck.HalfSpace(), ck.HardnessLimit(rule="constant", hardness=25e6))),
+            scene(
+                effects=(ck.HalfSpace(), ck.HardnessLimit(rule=ck.ConstantHardness(hardness=25e6)))
+            ),
             64,
             "fraction of the contact at the hardness",
             None,
@@ -219,7 +221,7 @@ def test_part_of_a_map_does_not_repeat():
 
 def test_a_saved_result_states_the_same(tmp_path):
     film = ck.FilmMeniscus(film_thickness=3e-9)
-    limit = ck.HardnessLimit(rule="constant", hardness=2e9)
+    limit = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=2e9))
     result, _ = solved(evolve(GOOD, effects=(ck.HalfSpace(), limit, film)))
     again = ck.load_result(result.save(tmp_path / "contact"))
     assert again.validity == result.validity
@@ -348,7 +350,7 @@ def test_a_mistaken_unit_is_named(slip):
 @pytest.mark.parametrize("factor", [1e-6, 1.0, 1e6])
 def test_a_mistaken_unit_of_thickness_or_hardness_is_named(factor):
     layer = ck.Layer(material=evolve(STEEL, hardness=3e9 * factor), thickness=50e-9 * factor)
-    limit = ck.HardnessLimit(rule="constant", hardness=3e9 / factor)
+    limit = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=3e9 / factor))
     solid = ck.Stack(layers=(layer,), substrate=STEEL)
     given = scene(solid=solid, pressure=200e6, effects=(ck.LayeredHalfSpace(), limit))
     if factor == 1e6:

@@ -13,10 +13,9 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
 from contactkit.fmu.native.film import prepared_film
+from contactkit.kinds import CONTACT_EFFECTS, SEPARATION_EFFECTS
 from contactkit.plot import separation as separation_plot
-from contactkit.separation.effects.registry import SEPARATION_EFFECTS
 
 ROOT = Path(__file__).parents[2]
 OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)

@@ -11,9 +11,9 @@ import tomli_w
 from attrs import frozen
 
 import contactkit as ck
+from contactkit import installed
 from contactkit.contact.effects.base import Observer, Scalar
 from contactkit.fmu.native.film import prepared_film
-from contactkit.scene import installed_effects
 from contactkit.scene.column import Column
 from contactkit.separation.effects.base import ForceLaw, SeparationForce
 
@@ -116,14 +116,14 @@ def install(tmp_path, monkeypatch):
         lines = "\n".join(f"{name} = {package}:{target}" for name, target in entries.items())
         (info / "entry_points.txt").write_text(f"[contactkit.effects]\n{lines}\n")
         monkeypatch.syspath_prepend(tmp_path)
-        installed_effects.forget_installed()
+        installed.forget_installed()
         return package
 
     yield put
     for i in range(9):
         sys.modules.pop(f"plates{i}", None)
     monkeypatch.undo()
-    installed_effects.forget_installed()
+    installed.forget_installed()
 
 
 # Registered in a session ----------------------------------------------------------------------
@@ -131,7 +131,7 @@ def install(tmp_path, monkeypatch):
 
 @pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 def test_a_registered_effect_is_in_plans_files_results_and_studies(registry, tmp_path):
-    assert ck.register_effect(LeastGap) is LeastGap
+    assert ck.register(LeastGap) is LeastGap
     assert registry.find("least-gap") is LeastGap
     scene = contact(LeastGap())
     accuracy = ck.Accuracy(grid=32)
@@ -150,9 +150,9 @@ def test_a_registered_effect_is_in_plans_files_results_and_studies(registry, tmp
 
 def test_a_class_that_is_defined_again_replaces_the_former(registry):
     n = len(registry)
-    ck.register_effect(LeastGap)
+    ck.register(LeastGap)
     again = least_gap()
-    ck.register_effect(again)
+    ck.register(again)
     assert registry.find("least-gap") is again
     assert len(registry) == n + 1
 
@@ -191,7 +191,7 @@ def made(base=SeparationForce, decorate=True, **body):
 def test_what_is_no_effect_or_has_a_name_twice_is_refused(registry, kind, message):
     before = list(registry)
     with pytest.raises(ck.DescriptionError, match=message):
-        ck.register_effect(kind)
+        ck.register(kind)
     assert list(registry) == before
 
 
@@ -253,9 +253,7 @@ def test_only_the_effect_that_a_file_names_is_imported(install):
 )
 def test_a_broken_entry_point_is_a_warning_and_nothing_else(install, source, entries, problem):
     package = install(source, entries)
-    with pytest.warns(
-        ck.InstalledEffectWarning, match=rf"{package!r} .* cannot be used: {problem}"
-    ):
+    with pytest.warns(ck.InstalledKindWarning, match=rf"{package!r} .* cannot be used: {problem}"):
         text = str(ck.plan(separation()))
     assert "off  weight" not in text
     assert "off  rupture" in text
@@ -268,7 +266,7 @@ def test_a_file_that_names_a_broken_effect_says_what_is_broken(install, tmp_path
     package = install("import absent_package", {"weight": "Weight"})
     path = file_with_weight(tmp_path)
     with (
-        pytest.warns(ck.InstalledEffectWarning),
+        pytest.warns(ck.InstalledKindWarning),
         pytest.raises(
             ck.DescriptionError, match=rf"{package!r} .*No module named 'absent_package'"
         ),
@@ -279,16 +277,16 @@ def test_a_file_that_names_a_broken_effect_says_what_is_broken(install, tmp_path
 def test_an_installed_effect_and_the_same_registered_are_one(install, registry):
     package = install(WEIGHT, {"weight": "Weight"})
     n = len(registry)
-    ck.register_effect(sys.modules[package].Weight)
+    ck.register(sys.modules[package].Weight)
     assert len(registry) == n
     with pytest.raises(ck.DescriptionError, match=r"no other effect has, .*Weight has it"):
-        ck.register_effect(made())
+        ck.register(made())
 
 
 def test_importing_contactkit_looks_for_no_entry_points():
     code = (
         "import sys, contactkit as ck; ck.Flat(radius=1.0); ck.plan; ck.EFFECTS; "
-        "from contactkit.scene.installed_effects import _entries; "
+        "from contactkit.installed import _entries; "
         "print(_entries.cache_info().currsize, 'importlib.metadata' in sys.modules)"
     )
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -3,6 +3,7 @@
 import json
 import math
 
+import attrs
 import loadings
 import numpy as np
 import pytest
@@ -171,7 +172,7 @@ def test_a_radius_on_the_upper_body_goes_with_the_body_that_is_pulled():
     scene = ck.SeparationScene(
         interface=ck.Interface(meniscus=film),
         loading=ck.ImposedTime(initial_gap=2e-9, final_gap=80e-9, time=1e-7),
-        effects=(PRINTED, ck.MeniscusForce(profile="as-published", pulled="upper")),
+        effects=(PRINTED, ck.MeniscusForce(profile=ck.AsPublished(pulled="upper"))),
     )
     mean = 0.75 * math.pi * 0.89e-3 * 100e-9**4 * (1 / 2e-9**2 - 1 / 80e-9**2) / 1e-7
     assert ck.simulate(ck.plan(scene)).mean_viscous_force == pytest.approx(mean, rel=1e-9)
@@ -200,7 +201,7 @@ def test_a_flooded_film_keeps_its_radius_rightly():
 
 
 def test_the_closed_neck_stands_beside_the_exact_limit():
-    result = run(PUBLISHED, ck.Rupture(criterion="zero-neck"))
+    result = run(PUBLISHED, ck.Rupture(gap="zero-neck"))
     found = {one.number: one for one in result.errata}
     assert set(found) == {"3.11", "zero neck"}
     assert found["zero neck"].corrected == pytest.approx(
@@ -249,3 +250,64 @@ def test_the_modes_of_effects():
     assert ck.Rupture().equations(plain) == "consistent"
     assert mixed(plain) == ""
     assert [one.number for one in result.errata] == ["3.11"]
+
+
+def _arc_film(lower, upper, viscosity=0.89e-3):
+    """Film of the source: x_n0 = 100 nm at 2 nm, as the arc has it."""
+    water = ck.Liquid(name="water", viscosity=viscosity, surface_tension=0.072)
+    return ck.Meniscus.from_radius(
+        liquid=water,
+        radius=100e-9,
+        at_gap=2e-9,
+        profile="arc",
+        contact_angle_lower=math.radians(lower),
+        contact_angle_upper=math.radians(upper),
+    )
+
+
+@pytest.mark.parametrize("degrees", [(0, 60), (60, 60), (180, 120)], ids=str)
+def test_the_printed_drag_takes_the_radius_of_the_arc(degrees):
+    """Eq. (3.53); an upright disc of that volume is 3.3 % low at 0/60, 3.4 % high at 180/120."""
+    scene = ck.SlidingScene(
+        interface=ck.Interface(meniscus=_arc_film(*degrees)),
+        loading=ck.Sliding(gap=2e-9, time=1e-7),
+        effects=(ck.CouetteForce(closure="as-published"),),
+    )
+    result = ck.simulate(ck.plan(scene))
+    expected = 8.0 * 0.89e-3 * 100e-9**3 / (3.0 * 1e-7 * 2e-9)
+    assert result.of(ck.CouetteForce).mean_force() == pytest.approx(expected, rel=1e-9)
+    assert result["overlap_area"][0] == pytest.approx(math.pi * 1e-14, rel=1e-9)
+    assert result.errata[0].value == pytest.approx(expected, rel=1e-9)
+    assert "contact circle x_n0 of the arc" in result.errata[0].erratum
+    own = attrs.evolve(scene, effects=(ck.CouetteForce(),))
+    upright = ck.simulate(ck.plan(own)).of(ck.CouetteForce).mean_force() / expected
+    known = {(0, 60): 0.9667, (60, 60): 0.9946, (180, 120): 1.0341}
+    assert upright == pytest.approx(known[degrees], abs=1e-4)
+
+
+@pytest.mark.parametrize("degrees", [(0, 60), (60, 60), (180, 120)], ids=str)
+@pytest.mark.parametrize("count", [1, 4, 100])
+def test_a_printed_division_takes_the_radius_of_the_arc(degrees, count):
+    """Eqs. (3.33) and (3.34) of x_n0 = 100 nm, up to where the neck of one meniscus closes."""
+    from contactkit.analyses.division import divide_meniscus
+
+    scene = ck.SeparationScene(
+        interface=ck.Interface(meniscus=_arc_film(*degrees)),
+        loading=ck.ImposedTime(initial_gap=2e-9, final_gap=1e-6, time=1e-7),
+        effects=(ck.MeniscusForce(profile="as-published"), PRINTED),
+    )
+    found = divide_meniscus(scene, [count])
+    lower, upper = map(math.radians, degrees)
+    laplace = math.pi * 1e-14 * 0.072 * (math.cos(lower) + math.cos(upper)) / 2e-9
+    line = 2.0 * math.sqrt(count) * math.pi * 0.072 * 100e-9 * math.sin(lower)
+    size = abs(laplace) + line
+    assert found.meniscus_force[0] == pytest.approx(laplace + line, rel=1e-9, abs=1e-12 * size)
+    end = min(float(found.limit_gap[0]), 1e-6)
+    falls = 1.0 / 2e-9**2 - 1.0 / end**2
+    viscous = 0.75 * math.pi * 0.89e-3 * 100e-9**4 * falls / (count * 1e-7)
+    assert found.viscous_force[0] == pytest.approx(viscous, rel=1e-9)
+    assert found.contact_radius[0] == pytest.approx(100e-9 / math.sqrt(count), rel=1e-9)
+    if count == 1:  # the scene itself
+        result = ck.simulate(ck.plan(scene))
+        assert result["meniscus_force"][0] == pytest.approx(found.meniscus_force[0], rel=1e-9)
+        assert result.mean_viscous_force == pytest.approx(found.viscous_force[0], rel=1e-9)

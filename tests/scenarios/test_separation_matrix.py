@@ -39,7 +39,7 @@ EFFECTS = (
     ck.TensionLimit(strength=1e6, cavity="truncated"),
     ck.ShearLimit(strength=1e6),
     ck.Rupture(),
-    ck.Rupture(criterion="zero-neck"),
+    ck.Rupture(gap="zero-neck"),
     ck.Rupture(gap=1.5e-8),
     ck.VanDerWaalsForce(hamaker_constant=1e-20),
     ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=70e9),

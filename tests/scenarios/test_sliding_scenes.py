@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import contactkit as ck
+from contactkit.capillary.arc import sphere as arc_sphere
 from contactkit.cli import main
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
@@ -35,8 +36,13 @@ def flats(*effects, x=1e-7, count=1, **loading):
 
 
 def sphere(*effects, radius=1e-7, s=2e-9, **loading):
+    """Film that is as high as s at its rim: upright, or the arc of the printed equations."""
     gap = loading.setdefault("gap", 1e-9)
-    film = ck.Meniscus(liquid=WATER, volume=math.pi * radius * (s - gap) * (s + gap))
+    volume = math.pi * radius * (s - gap) * (s + gap)
+    if CLOSURES[2] in effects:
+        x = math.sqrt(2.0 * radius * (s - gap))
+        volume = float(arc_sphere.volume(gap, x, 0.0, 0.0, 0.0, 1.0 / radius, "parabola"))
+    film = ck.Meniscus(liquid=WATER, volume=volume)
     interface = ck.Interface(upper=ck.Sphere(radius=radius), meniscus=film)
     return ck.SlidingScene(
         interface=interface, loading=ck.Sliding(**loading), effects=effects or (ck.CouetteForce(),)

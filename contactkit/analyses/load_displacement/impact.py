@@ -20,7 +20,7 @@ from .curve import CurvePoint, LoadDisplacementCurve, area_below
 
 __all__ = ["Impact", "SeriesPoint", "impact", "in_series"]
 
-_CLOSE = 1e-13
+_CLOSE = 1e-13  # of the approach: curves through solved points have no more digits
 
 
 class Impact(NamedTuple):

@@ -16,7 +16,7 @@ import numpy as np
 from attrs import evolve
 
 from ...accuracy import Accuracy
-from ...contact.chain import ContactChain, imposed, loading_of
+from ...contact.chain import ContactChain, loading_of
 from ...contact.effects.base import (
     Attraction,
     Compliance,
@@ -31,6 +31,7 @@ from ...contact.result import ContactResult
 from ...contact.solver.warm_start import MAX_SOLUTIONS
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError, PlanError
 from ...numerics.monotone_cubic import power_curve
+from ...scene.loading import ContactLoading
 from ...scene.plan import check_scene
 from ...scene.scenes import ContactScene
 from ...validity import warn
@@ -148,12 +149,12 @@ def load_displacement(
     scene = _without_observers(scene)
     key, values = _series(scene, loads, approaches, points, decades)
     n_unloadings = _count("n_unloadings", n_unloadings, 1)
-    last = evolve(scene, loading=loading_of(key, values[-1]))
+    last = evolve(scene, loading=_loading(scene, key, values[-1]))
     plan = plan_contact(last, accuracy)  # refuses the maximum load before any solve
     report = progress or (lambda fraction: None)
     chain, nodes = ContactChain(), list[_Node]()
     for i, value in enumerate(reversed(values)):
-        result = chain.solve(plan.with_loading(loading_of(key, value)))
+        result = chain.solve(plan.with_loading(_loading(scene, key, value)))
         if i == 0:
             warn(result.validity)  # at the largest load; under a light one a spot is a pixel
         if result.load > 0.0:
@@ -213,12 +214,19 @@ def _series(
     _count("points", points, 4)
     if not (math.isfinite(decades) and decades > 0.0):
         raise DescriptionError("load_displacement(decades)", decades, "be positive and finite")
-    key, last = imposed(scene.loading)
+    key, last, _ = scene.loading.quantity
     if last <= 0.0:
         where = f"{type(scene.loading).__name__}.{key}"
         raise DescriptionError(where, last, "be positive for a load-displacement curve")
-    reach = decades / HERTZ if key == "approach" else decades
+    reach = decades if scene.loading.imposed_approach is None else decades / HERTZ
     return key, [float(x) for x in np.geomspace(last * 10.0**-reach, last, points)]
+
+
+def _loading(scene: ContactScene, key: str, value: float) -> ContactLoading:
+    """Loading of a point: as in the scene, if that imposes the same quantity."""
+    if scene.loading.quantity.name == key:
+        return evolve(scene.loading, **{key: value})
+    return loading_of(key, value)
 
 
 def _node(result: ContactResult) -> _Node:
@@ -242,7 +250,7 @@ def _check_grows(before: _Node, node: _Node) -> None:
         raise InfeasibleError(
             f"at {node.force:.6g} N the plastic spots are smaller than at {before.force:.6g} "
             "N: the hardness grows with the load, and residual indentations of smaller loads are "
-            "lost; use HardnessLimit(rule='material') or rule='constant', or end the loads below "
+            "lost; use HardnessLimit(rule='material') or ConstantHardness, or end the loads below "
             "that"
         )
 

@@ -27,7 +27,7 @@ _SLOPES = 30.0
 # Round-off of the logarithm of the gap: a steep force inherits it, and no member reduces it. It
 # only matters for tolerances below 1e-11; at 1e-9, 0 to 2e-15 take the same members.
 _ROUNDING = 5e-16
-# Members; what is still missed is noise. Some hundreds are the rule, 2000 at a detachment.
+# Members; what is still missed is noise. 400 to 900 are the rule, 1100 at a detachment.
 _MAX_MEMBERS = 20_000
 
 Place = Callable[[float], float]

@@ -2,6 +2,7 @@
 
 base            Base classes: the roles of the effects in the contact problem.
 elasticity      Elastic compliance of half-spaces and stacks of layers.
+hardness_rules  Rules for the hardness of a body: `HardnessRule`.
 plasticity      Hardness: the upper bound of the pressure.
 adhesion        Attraction of the surfaces across their gap.
 attraction_laws Laws of that attraction: Dugdale, exponential, Lennard-Jones.
@@ -11,5 +12,4 @@ partial_slip    Stick and slip under a tangential load path.
 stress          Stress below the surface.
 film            Meniscus force of a thin liquid film.
 island_bridges  An exact bridge on each wet island of the gap.
-registry        All of them: `CONTACT_EFFECTS`.
 """

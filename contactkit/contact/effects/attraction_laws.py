@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import abc
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from attrs import Attribute, field, frozen
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     Map = NDArray[np.float64]
 
 __all__ = [
-    "ATTRACTION_LAWS",
     "AttractionLaw",
     "DugdaleAttraction",
     "ExponentialAttraction",
@@ -33,15 +33,17 @@ _GENTLE = 0.2  # end width over the range at which iterations on stiff films set
 
 
 class TensionLaw(NamedTuple):
-    """A law on a grid: its name as a kernel, and its numbers.
+    """A law on a grid: its tension [Pa] and energy [J/m2] over the gap, and its numbers.
 
-    `strength` is the largest tension [Pa], `reach` the gap [m] up to which pixels count as
-    attracted, `steepest` the largest fall of the tension with the gap [Pa/m], and `numbers` what
-    the kernels of `contactkit.adhesion.attraction` take after the gap. `cure` says what else to
-    change where the tension does not settle.
+    Both functions take gaps (ny, nx) [m] and then the `numbers`, as those of
+    `contactkit.adhesion.attraction` do; the energy is minus the work that is left to part the
+    surfaces. `strength` is the largest tension [Pa], `reach` the gap [m] up to which pixels count
+    as attracted, `steepest` the largest fall of the tension with the gap [Pa/m]. `cure` says what
+    else to change where the tension does not settle.
     """
 
-    kernel: str
+    tension_of: Callable[..., Map]
+    energy_of: Callable[..., Map]
     numbers: tuple[float, ...]
     strength: float
     reach: float
@@ -50,17 +52,11 @@ class TensionLaw(NamedTuple):
 
     def tension(self, gap: Map) -> Map:
         """Tension [Pa] at a gap [m], (ny, nx) each."""
-        from ...adhesion import attraction
-
-        made: Map = getattr(attraction, f"{self.kernel}_tension")(gap, *self.numbers)
-        return made
+        return self.tension_of(gap, *self.numbers)
 
     def energy(self, gap: Map) -> Map:
         """Energy per area [J/m2] at a gap [m], (ny, nx) each."""
-        from ...adhesion import attraction
-
-        made: Map = getattr(attraction, f"{self.kernel}_energy")(gap, *self.numbers)
-        return made
+        return self.energy_of(gap, *self.numbers)
 
 
 def _work(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -83,6 +79,7 @@ class AttractionLaw(Described, abc.ABC):
         Gap over which the attraction acts [m].
     """
 
+    family: ClassVar[str] = "attraction law"
     kind: ClassVar[str]
     source: ClassVar[str]
 
@@ -101,11 +98,15 @@ class AttractionLaw(Described, abc.ABC):
         )
 
     def _made(
-        self, kernel: str, peak: float, slope: float, reach: float, more: tuple[float, ...] = ()
+        self,
+        kernels: tuple[Callable[..., Map], Callable[..., Map]],
+        peak: float,
+        slope: float,
+        more: tuple[float, ...] = (),
     ) -> TensionLaw:
         """Return a law of given peak over w/r, and of steepest fall over w/r^2."""
         w, r = self.work_of_adhesion, self.range
-        return TensionLaw(kernel, (w, r, *more), peak * w / r, reach, slope * w / r**2)
+        return TensionLaw(*kernels, (w, r, *more), peak * w / r, r, slope * w / r**2)
 
 
 @frozen(kw_only=True)
@@ -131,7 +132,9 @@ class ExponentialAttraction(AttractionLaw):
 
     def on_grid(self, self_influence: float) -> TensionLaw:
         """See `AttractionLaw.on_grid`."""
-        return self._made("exponential", 1.0, 1.0, self.range)
+        from ...adhesion.attraction import exponential_energy, exponential_tension
+
+        return self._made((exponential_tension, exponential_energy), 1.0, 1.0)
 
 
 @frozen(kw_only=True)
@@ -172,11 +175,13 @@ class DugdaleAttraction(AttractionLaw):
 
     def on_grid(self, self_influence: float) -> TensionLaw:
         """See `AttractionLaw.on_grid`."""
+        from ...adhesion.attraction import dugdale_energy, dugdale_tension
+
         w, r = self.work_of_adhesion, self.range
         b = self.end_width
         if b is None:
             b = min(max(1.001 * w / r * self_influence, _NARROWEST * r), r)
-        made = self._made("dugdale", 1.0, 0.5 * r / b, r, (b,))
+        made = self._made((dugdale_tension, dugdale_energy), 1.0, 0.5 * r / b, (b,))
         if b >= _GENTLE * r:
             return made
         gentle = f"give DugdaleAttraction.end_width = {_GENTLE * r:.3g} m, now {b:.3g} m"
@@ -273,14 +278,12 @@ class LennardJonesAttraction(AttractionLaw):
 
     def on_grid(self, self_influence: float) -> TensionLaw:
         """See `AttractionLaw.on_grid`."""
-        from ...adhesion.attraction import LENNARD_JONES_PEAK, LENNARD_JONES_SLOPE
+        from ...adhesion.attraction import (
+            LENNARD_JONES_PEAK,
+            LENNARD_JONES_SLOPE,
+            lennard_jones_energy,
+            lennard_jones_tension,
+        )
 
-        return self._made("lennard_jones", LENNARD_JONES_PEAK, LENNARD_JONES_SLOPE, self.range)
-
-
-ATTRACTION_LAWS: tuple[type[AttractionLaw], ...] = (
-    ExponentialAttraction,
-    DugdaleAttraction,
-    LennardJonesAttraction,
-)
-"""Every law a file can name, by its `kind`."""
+        kernels = (lennard_jones_tension, lennard_jones_energy)
+        return self._made(kernels, LENNARD_JONES_PEAK, LENNARD_JONES_SLOPE)

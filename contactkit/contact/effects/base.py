@@ -171,7 +171,7 @@ HardnessLaw = FixedHardness | VaryingHardness
 
 
 class InterfaceView(NamedTuple):
-    """What unknowns of effects are made from: the prepared contact, whatever its load.
+    """Prepared contact, whatever its load: all that unknowns of effects are made from.
 
     `self_influence` is the displacement of a pixel under unit pressure on itself [m/Pa],
     `displacements` gives that of each body for a pressure [Pa] and the displacement of both [m],
@@ -228,7 +228,7 @@ class Array(NamedTuple):
 class ContactEffect(Effect, Generic[Part]):
     """An effect of a `ContactScene`; `Part` is what ``result.of`` gives for it."""
 
-    acts_in: ClassVar[str] = "contact"
+    family: ClassVar[str] = "contact effect"
     scalars: ClassVar[tuple[Scalar, ...]] = ()
     """Numbers of the part, for tables, studies and files."""
     arrays: ClassVar[tuple[Array, ...]] = ()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from attrs import Attribute, field, frozen
 
+from ...errors import DescriptionError
 from ...scene.loading import TangentialStep
 from ...units import si
 from ...validators import (
@@ -117,9 +118,9 @@ class PartialSlip(Observer[PartialSlipPart]):
         displacement is right within 0.1 %.
     direction : float
         Direction of the load, from the x axis towards y [rad].
-    guided : bool
-        With two components: whether the transverse displacement is held, or the transverse force
-        is zero.
+    guided : bool, optional
+        With two components only: whether the transverse displacement is held, or the transverse
+        force is zero. None: held.
     rtol : float
         Largest violation of a condition over the displacement of a sub-step [-], at most 1e-3.
     coupled : bool
@@ -131,9 +132,9 @@ class PartialSlip(Observer[PartialSlipPart]):
         Steps in which coupled bodies are pressed together [-]; None: as many as `pressing_rtol`
         asks for. The error of the tractions falls as one over their number: 4 % rms for 8 on a
         sphere or a rough surface; `SlipCoupling.step_error` estimates it.
-    pressing_rtol : float
+    pressing_rtol : float, optional
         Error of the tractions by the steps of pressing, rms over that of their bound [-], at most
-        0.1. Needs some 15 to 60 steps for 0.01, and ten times as many for a tenth of it.
+        0.1; None: 0.01, which needs some 15 to 60 steps; a tenth of it needs ten times as many.
 
     Notes
     -----
@@ -209,13 +210,38 @@ class PartialSlip(Observer[PartialSlipPart]):
         default=1, converter=as_whole, validator=_components, metadata=si("-")
     )
     direction: float = field(default=0.0, validator=finite, metadata=si("rad"))
-    guided: bool = field(default=True, validator=part(bool))
+    guided: bool | None = field(default=None, validator=optional(part(bool)))
     rtol: float = field(default=1e-8, validator=_tolerance, metadata=si("-"))
     coupled: bool = field(default=False, validator=part(bool))
     pressing_steps: int | None = field(
         default=None, converter=as_whole, validator=optional(count), metadata=si("-")
     )
-    pressing_rtol: float = field(default=_PRESSING, validator=_step_error, metadata=si("-"))
+    pressing_rtol: float | None = field(
+        default=None, validator=optional(_step_error), metadata=si("-")
+    )
+
+    def __attrs_post_init__(self) -> None:
+        """Refuse what would not be read."""
+        if self.guided is not None and self.components == 1:
+            raise DescriptionError(
+                "PartialSlip.guided",
+                self.guided,
+                "be left out with components=1, which has no transverse displacement",
+                hint="give components=2, or leave it out",
+            )
+        chosen = [n for n in ("pressing_steps", "pressing_rtol") if getattr(self, n) is not None]
+        if chosen and not self.coupled:
+            raise DescriptionError(
+                f"PartialSlip.{chosen[0]}",
+                getattr(self, chosen[0]),
+                "be left out without coupled=True: pressing causes no tractions then",
+            )
+        if len(chosen) > 1:
+            raise DescriptionError(
+                "PartialSlip.pressing_steps",
+                self.pressing_steps,
+                "be left out beside pressing_rtol, which chooses them",
+            )
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -229,6 +255,11 @@ class PartialSlip(Observer[PartialSlipPart]):
             sources += ("coupling compliance F12; frictional pressing: Spence 1975, Johnson 5.4",)
         return sources
 
+    @property
+    def pressing_error(self) -> float:
+        """Error of the tractions by the steps of pressing that is aimed at [-]."""
+        return _PRESSING if self.pressing_rtol is None else self.pressing_rtol
+
     def couples(self, scene: ContactScene) -> bool:
         """Whether pressure and tractions of a scene displace each other's surfaces."""
         lower, upper = bodies_of(scene.interface)
@@ -240,7 +271,7 @@ class PartialSlip(Observer[PartialSlipPart]):
         from ..slip.load_path import FrictionLaw
 
         return FrictionLaw(
-            self.coefficient, self.direction, self.components, self.guided, self.rtol
+            self.coefficient, self.direction, self.components, self.guided is not False, self.rtol
         )
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
@@ -263,13 +294,6 @@ class PartialSlip(Observer[PartialSlipPart]):
             )
         if self.coupled:
             missing += self._lacks_for_coupling(scene)
-        elif self.pressing_steps is not None or self.pressing_rtol != _PRESSING:
-            missing.append(
-                "coupled=True for pressing_steps and pressing_rtol, or neither: without coupling "
-                "pressing causes no tractions"
-            )
-        if self.pressing_steps is not None and self.pressing_rtol != _PRESSING:
-            missing.append("either pressing_steps or pressing_rtol, which chooses them")
         return tuple(missing)
 
     def _lacks_for_coupling(self, scene: ContactScene) -> list[str]:
@@ -278,7 +302,7 @@ class PartialSlip(Observer[PartialSlipPart]):
             missing.append(
                 "components=2 with coupled=True, as pressure draws the surfaces along both axes"
             )
-        has_steps = self.pressing_steps is not None or self.pressing_rtol != _PRESSING
+        has_steps = self.pressing_steps is not None or self.pressing_rtol is not None
         if has_steps and scene.effect(LoadHistory) is not None:
             missing.append(
                 "no pressing_steps or pressing_rtol beside PlasticHistory, whose steps press the "
@@ -307,7 +331,7 @@ class PartialSlip(Observer[PartialSlipPart]):
                 ValidityNumber(
                     name="error of the tractions by the steps of pressing",
                     value=coupling.step_error,
-                    high=self.pressing_rtol if chosen else _MOST_STEP_ERROR,
+                    high=self.pressing_error if chosen else _MOST_STEP_ERROR,
                     detail=f"rms over that of their bound, after {coupling.pressing_steps} steps; "
                     + ("raise pressing_rtol" if chosen else "leave pressing_steps to contactkit"),
                     source="first order in their number, measured on spheres and rough surfaces",

@@ -180,9 +180,9 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
         given = [bool(one) for one in (self.pressures, self.forces, self.approaches)]
         if sum(given) != 1:
             missing.append("exactly one of pressures [Pa], forces [N] and approaches [m]")
-        elif self.approaches and not isinstance(scene.loading, Approach):
+        elif self.approaches and scene.loading.imposed_approach is None:
             missing.append("loading = Approach(...) with approaches, or pressures or forces")
-        elif not self.approaches and not isinstance(scene.loading, Pressing):
+        elif not self.approaches and scene.loading.imposed_approach is not None:
             missing.append("loading = Pressing(...) with pressures or forces, or approaches")
         return tuple(missing)
 

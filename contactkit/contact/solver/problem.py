@@ -20,7 +20,7 @@ from .optimality import ROUNDED
 from .transfer import restrict
 
 __all__ = [
-    "Problem",
+    "ContactProblem",
     "Solution",
     "clip_to_load",
     "coarser",
@@ -87,7 +87,7 @@ class Solution(NamedTuple):
     memory_arrays: float
 
 
-class Problem(NamedTuple):
+class ContactProblem(NamedTuple):
     """The dimensionless problem: unit self influence, rms height 1, heights of zero mean.
 
     heights : (ny, nx); load : sum of the pressures, or None
@@ -152,7 +152,7 @@ def pose(
     mean_pressure: float | None = None,
     rigid_approach: float | None = None,
     bound: float | Floats | None = None,
-) -> Problem:
+) -> ContactProblem:
     """Check a contact problem and make it dimensionless.
 
     Parameters
@@ -213,7 +213,7 @@ def pose(
     h /= length
     with np.errstate(over="ignore"):  # a bound out of reach is none
         upper = upper / unit
-    return Problem(
+    return ContactProblem(
         heights=h,
         load=None if mean_pressure is None else mean_pressure / unit * h.size,
         approach=None if rigid_approach is None else (rigid_approach + datum) / length,
@@ -268,12 +268,12 @@ def _topped_up(p: Floats, trial: Floats, upper: Floats, load: float) -> Floats:
     return made
 
 
-def project(trial: Floats, problem: Problem) -> Floats:
+def project(trial: Floats, problem: ContactProblem) -> Floats:
     """Nearest feasible pressures to `trial`, flat arrays.
 
     Examples
     --------
-    >>> flat = Problem(np.zeros((1, 2)), None, 0.0, np.array([1.0]), 1.0, 1.0, 0.0)
+    >>> flat = ContactProblem(np.zeros((1, 2)), None, 0.0, np.array([1.0]), 1.0, 1.0, 0.0)
     >>> project(np.array([-1.0, 2.0]), flat)
     array([0., 1.])
     """
@@ -282,14 +282,14 @@ def project(trial: Floats, problem: Problem) -> Floats:
     return clip_to_load(trial, problem.upper, problem.load)
 
 
-def fit(trial: Floats, problem: Problem) -> Floats:
+def fit(trial: Floats, problem: ContactProblem) -> Floats:
     """Feasible pressures near `trial` without new contact pixels: clip, then scale to the load.
 
     Only if the free pixels cannot make up for the load is the nearest feasible map taken.
 
     Examples
     --------
-    >>> pair = Problem(np.zeros((1, 3)), 3.0, None, np.array([np.inf]), 1.0, 1.0, 0.0)
+    >>> pair = ContactProblem(np.zeros((1, 3)), 3.0, None, np.array([np.inf]), 1.0, 1.0, 0.0)
     >>> fit(np.array([-1.0, 0.0, 2.0]), pair)
     array([0., 0., 3.])
     """
@@ -311,12 +311,12 @@ def fit(trial: Floats, problem: Problem) -> Floats:
     return p if abs(missing) <= 1e-12 * problem.load else project(p, problem)
 
 
-def known_pressure(problem: Problem) -> float | Floats | None:
+def known_pressure(problem: ContactProblem) -> float | Floats | None:
     """Pressures that need no solve: none at all, or the bound everywhere.
 
     Examples
     --------
-    >>> known_pressure(Problem(np.ones((2, 2)), 8.0, None, np.array([2.0]), 1.0, 1.0, 0.0))
+    >>> known_pressure(ContactProblem(np.ones((2, 2)), 8.0, None, np.array([2.0]), 1.0, 1.0, 0.0))
     array([[2.]])
     """
     if problem.load == 0.0:
@@ -329,12 +329,12 @@ def known_pressure(problem: Problem) -> float | Floats | None:
     return None
 
 
-def coarser(problem: Problem, shape: tuple[int, int]) -> Problem:
+def coarser(problem: ContactProblem, shape: tuple[int, int]) -> ContactProblem:
     """The problem on a coarser grid of the same window: same mean pressure, same approach.
 
     Examples
     --------
-    >>> fine = Problem(np.ones((2, 2)), 8.0, None, np.array([9.0]), 1.0, 1.0, 0.0)
+    >>> fine = ContactProblem(np.ones((2, 2)), 8.0, None, np.array([9.0]), 1.0, 1.0, 0.0)
     >>> coarser(fine, (1, 1)).load
     2.0
     """

@@ -27,11 +27,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .loops_numpy import dot
-from .nested_grids import Grid
-from .problem import Problem, clip_to_load, fit
+from .nested_grids import GridLevel
+from .problem import ContactProblem, clip_to_load, fit
 from .projection import TOLERANCE, Projection
 from .reduced_system import ReducedSystem
-from .state import State
+from .state import ActiveSetState
 
 __all__ = ["ProjectedSet"]
 
@@ -53,12 +53,12 @@ REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear res
 )
 
 
-class ProjectedSet(State):
-    """Iterations of the projected active set; parameters as of `State`."""
+class ProjectedSet(ActiveSetState):
+    """Iterations of the projected active set; parameters as of `ActiveSetState`."""
 
     max_iterations = 150
 
-    def __init__(self, grid: Grid, problem: Problem, rtol: float) -> None:
+    def __init__(self, grid: GridLevel, problem: ContactProblem, rtol: float) -> None:
         super().__init__(grid, problem, rtol)
         self.metric = grid.metric
         if not self.balanced():  # the line search goes between maps of one load

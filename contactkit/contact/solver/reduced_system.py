@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from .conjugate_gradient import conjugate_gradient
 from .convolution import Patch
-from .nested_grids import Grid
+from .nested_grids import GridLevel
 
 __all__ = ["ReducedSystem", "few_enough", "influence_matrix", "solve_directly"]
 
@@ -111,7 +111,7 @@ class ReducedSystem:
 
     Parameters
     ----------
-    grid : Grid
+    grid : GridLevel
         The grid; the change of the displacement goes to its `change`.
     at : ndarray (m,)
         Flat indices of the free pixels, sorted.
@@ -123,7 +123,7 @@ class ReducedSystem:
     """
 
     def __init__(
-        self, grid: Grid, at: NDArray[np.intp], load_fixed: bool, displaces: bool = True
+        self, grid: GridLevel, at: NDArray[np.intp], load_fixed: bool, displaces: bool = True
     ) -> None:
         self.grid, self.at, self.load_fixed, self.displaces = grid, at, load_fixed, displaces
         self.loops = grid.loops

@@ -22,7 +22,7 @@ import scipy.optimize
 from numpy.typing import NDArray
 
 from .optimality import Optimality, height_scale, optimality
-from .problem import Problem, fit, project
+from .problem import ContactProblem, fit, project
 
 __all__ = ["Iterate", "conjugate_gradient", "quasi_newton"]
 
@@ -56,7 +56,7 @@ class Iterate(NamedTuple):
         return self.optimality.energy_gap / (load * self.scale) if load > 0.0 else 0.0
 
 
-def _graded(p: Floats, u: Floats, problem: Problem) -> Iterate:
+def _graded(p: Floats, u: Floats, problem: ContactProblem) -> Iterate:
     """Optimality of dimensionless pressures and their displacement."""
     h = problem.heights.ravel()
     found = optimality(p, u, h, problem.upper, problem.approach)
@@ -75,7 +75,7 @@ def _free(p: Floats, g: Floats, approach: float, upper: Floats) -> NDArray[np.bo
 
 def conjugate_gradient(
     apply: Callable[[Floats], Floats],
-    problem: Problem,
+    problem: ContactProblem,
     start: Floats,
     steepest: float,
     rtol: float = 1e-8,
@@ -94,7 +94,7 @@ def conjugate_gradient(
     ----------
     apply : callable
         ``G p`` on flat dimensionless arrays.
-    problem : Problem
+    problem : ContactProblem
         Dimensionless problem.
     start : ndarray (n,)
         Initial pressures, projected on the feasible set.
@@ -117,7 +117,8 @@ def conjugate_gradient(
 
     Examples
     --------
-    >>> wedge = Problem(np.array([[1.0, -1.0]]), 1.0, None, np.array([np.inf]), 1.0, 1.0, 0.0)
+    >>> heights, unbounded = np.array([[1.0, -1.0]]), np.array([np.inf])
+    >>> wedge = ContactProblem(heights, 1.0, None, unbounded, 1.0, 1.0, 0.0)
     >>> conjugate_gradient(lambda p: p, wedge, np.ones(2), 1.0).pressure
     array([1., 0.])
     """
@@ -217,7 +218,7 @@ def _minimised(
 
 def quasi_newton(
     apply: Callable[[Floats], Floats],
-    problem: Problem,
+    problem: ContactProblem,
     start: Floats,
     steepest: float,
     rtol: float = 1e-8,
@@ -237,7 +238,8 @@ def quasi_newton(
 
     Examples
     --------
-    >>> wedge = Problem(np.array([[1.0, -1.0]]), 1.0, None, np.array([np.inf]), 1.0, 1.0, 0.0)
+    >>> heights, unbounded = np.array([[1.0, -1.0]]), np.array([np.inf])
+    >>> wedge = ContactProblem(heights, 1.0, None, unbounded, 1.0, 1.0, 0.0)
     >>> quasi_newton(lambda p: p, wedge, np.ones(2), 1.0).pressure.round(6)
     array([1., 0.])
     """

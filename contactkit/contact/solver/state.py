@@ -9,25 +9,25 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .nested_grids import Grid
+from .nested_grids import GridLevel
 from .optimality import free_approach, scale_of
-from .problem import Problem, project
+from .problem import ContactProblem, project
 
-__all__ = ["State"]
+__all__ = ["ActiveSetState"]
 
 SINGLE = 1e-2  # relative violation down to which displacements in single precision are used
 SINGLE_NOISE = 1e-5  # likewise over the largest displacement, which may be far above the heights
 SINGLE_LIMIT = 1e-5  # violation that displacements in single precision cannot measure
 
 
-class State:
+class ActiveSetState:
     """Pressure, reduced gap, approach and relative violation on one grid.
 
     Parameters
     ----------
-    grid : Grid
+    grid : GridLevel
         Its `pressure` and `gap` are the maps, changed in place.
-    problem : Problem
+    problem : ContactProblem
         Dimensionless problem on this grid.
     rtol : float
         Relative violation to reach.
@@ -35,7 +35,7 @@ class State:
 
     max_iterations = 80
 
-    def __init__(self, grid: Grid, problem: Problem, rtol: float) -> None:
+    def __init__(self, grid: GridLevel, problem: ContactProblem, rtol: float) -> None:
         self.grid, self.problem, self.rtol = grid, problem, rtol
         self.p, self.g = grid.pressure.ravel(), grid.gap.ravel()
         self.h, self.upper = problem.heights.ravel(), problem.upper

@@ -12,10 +12,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from .nested_grids import Grid
-from .problem import Problem
+from .nested_grids import GridLevel
+from .problem import ContactProblem
 from .reduced_system import ReducedSystem
-from .state import State
+from .state import ActiveSetState
 
 __all__ = ["TruncatedSet"]
 
@@ -31,10 +31,10 @@ SAFETY = 0.3  # of the last reduction: the violation is a maximum, the linear re
 PATIENCE = 15  # iterations within which the residual must have halved
 
 
-class TruncatedSet(State):
-    """Iterations of the truncated active set; parameters as of `State`."""
+class TruncatedSet(ActiveSetState):
+    """Iterations of the truncated active set; parameters as of `ActiveSetState`."""
 
-    def __init__(self, grid: Grid, problem: Problem, rtol: float) -> None:
+    def __init__(self, grid: GridLevel, problem: ContactProblem, rtol: float) -> None:
         super().__init__(grid, problem, rtol)
         self.stuck, self.cautious = False, False
         self.at = np.zeros(0, np.intp)

@@ -83,6 +83,7 @@ def grid_of_modes(shape: tuple[int, int], pixel_size: tuple[float, float]) -> Mo
     back = slice((ny - 1) // 2, 0, -1)
     rank = rank.reshape(ky.size, kx.size)
     rank, signed = np.concatenate([rank, rank[back]]), np.concatenate([ky, -ky[back]])
+    # Squares keep the Nyquist waves that an odd function loses: sigma_xx of such a wave is real.
     over = 1.0 / np.where(rank == 0, 1.0, length[rank])
     x, y = kx * over, signed[:, None] * over
     xx, yy = x * x, y * y
@@ -143,6 +144,7 @@ def into_space(
         full = np.zeros((modes.shape[0], values.shape[1]), dtype=np.complex128)
         full[modes.rows] = values
         values = full
+    # Columns first: rows outside of the window are cut before they are transformed.
     rows = scipy.fft.ifft(values, axis=0, workers=workers, overwrite_x=True)[: window[0]]
     return scipy.fft.irfft(rows, n=modes.shape[1], axis=1, workers=workers)[:, : window[1]]
 
@@ -177,6 +179,7 @@ def table_of(states: PlaneStates, length: Array, *, displacement: bool) -> UnitF
         U, W, T, S = state
         loads.append([*stress, S, T, U * unit, W * unit])
     shear = [transverse, states.transverse[1], 2.0 * unit * transverse]
+    # The zeros at both ends serve rank 0, the mean, and with mode="clip" all ranks above the last.
     tables = np.zeros((2, 9, alpha.size + 2))
     tables[0, :6, 1:-1] = loads[0]
     tables[1, :, 1:-1] = loads[1] + shear

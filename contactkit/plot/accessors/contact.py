@@ -31,12 +31,19 @@ class ContactFigures(Figures[ContactResult]):
         return of_absent_effects(self._owner.plan)
 
     def pictures(self) -> dict[str, Callable[[], Axes]]:
-        """See `Figures.pictures`; also the maps of effects that have no figures of their own."""
+        """See `Figures.pictures`; also the maps of effects that have no figures of their own.
+
+        A map that is zero everywhere, such as the overlap of a contact that stays elastic, shows
+        nothing.
+        """
         result = self._owner
         kinds = [kind for kind in result.parts if not kind.figures]
-        arrays = [one for kind in kinds for one in kind.arrays if one.unit != "-"]
-        shown = {one.name for one in arrays} & set(maps.map_names(result))
-        return super().pictures() | {name: partial(self.map, name) for name in sorted(shown)}
+        own = {one.name for kind in kinds for one in kind.arrays if one.unit != "-"}
+        known = result.contents().quantities
+        shown = sorted(
+            name for name in own & set(maps.map_names(result)) if known[name].values.any()
+        )
+        return super().pictures() | {name: partial(self.map, name) for name in shown}
 
     def pressure(self, *, ax: Axes | None = None) -> Axes:
         """Draw the map of the pressure; white where there is neither contact nor attraction."""

@@ -190,7 +190,7 @@ class LimitPart:
 class SeparationEffect(Effect):
     """An effect of a `SeparationScene`."""
 
-    acts_in: ClassVar[str] = "separation"
+    family: ClassVar[str] = "separation effect"
     takes_pressure: ClassVar[bool] = False
     """Whether it knows a meniscus of fixed pressure; otherwise the plan refuses that."""
     late: ClassVar[tuple[Column, ...]] = ()

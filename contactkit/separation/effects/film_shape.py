@@ -49,7 +49,8 @@ def needs_extent(scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
         wetting = math.cos(meniscus.contact_angle_lower) + math.cos(meniscus.contact_angle_upper)
         return () if wetting > 0.0 else ("contact angles that add up to less than 180 deg",)
     if interface.is_flat and meniscus.volume is None and math.isinf(interface.rim_radius):
-        return ("interface.meniscus.volume [m3], or the radius [m] or planform of a Flat face",)
+        needed = "interface.meniscus.volume [m3], or the radius [m] of a Flat face, or its planform"
+        return (needed,)
     return ()
 
 

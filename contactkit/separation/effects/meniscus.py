@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
-from attrs import field, frozen
+from attrs import Attribute, field, frozen
 
 from ...as_published.printed import common as printed
 from ...errors import ConvergenceError, InfeasibleError
 from ...lubrication import dimensionless as numbers
 from ...scene.column import Column
-from ...scene.surfaces import Sphere
-from ...validators import choice
+from ...validators import Described, choice
 from ...validity import ValidityNumber
 from .base import ForceLaw, RunCurves, SeparationForce
 from .film_shape import needs_extent
@@ -31,10 +30,48 @@ if TYPE_CHECKING:
     from .base import PlanView
     from .prepared import PreparedScene
 
-__all__ = ["MeniscusForce"]
+__all__ = ["AsPublished", "MeniscusForce"]
 
 _HEAVIEST = 0.05  # weight over force
 _LEAST_FORCE = 0.3  # gamma V^(1/3): where a force changes sign, its errors are judged by this
+
+
+@frozen(kw_only=True)
+class AsPublished(Described):
+    """The force as printed: Eq. (3.11) between flats, Eq. (3.12) on a sphere.
+
+    Both are known to be wrong; `plan.cite()` lists their errata.
+
+    Parameters
+    ----------
+    pulled : {"lower", "upper"}
+        Body whose contact circle and contact angle enter Eq. (3.11).
+    radius : {"arc", "disc"}
+        Radius in Eq. (3.11) of a volume. ``"arc"``: that of the contact circle of the arc of Eqs.
+        (3.38) to (3.40), as the source has it, up to the gap at which its neck closes. ``"disc"``:
+        that of an upright disc, which is near the other for films much wider than high, and is
+        what the law ``PUBLISHED`` of the FMU ``stiction-mass`` takes.
+
+    Examples
+    --------
+    >>> MeniscusForce(profile="as-published") == MeniscusForce(profile=AsPublished())
+    True
+    """
+
+    family: ClassVar[str] = "meniscus profile"
+    kind: ClassVar[str] = "as-published"
+
+    pulled: Literal["lower", "upper"] = field(default="lower", validator=choice("lower", "upper"))
+    radius: Literal["arc", "disc"] = field(default="arc", validator=choice("arc", "disc"))
+
+
+def _as_profile(value: Any) -> Any:
+    return AsPublished() if value == AsPublished.kind else value
+
+
+def _profile(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if not isinstance(value, AsPublished):
+        choice("exact", "arc", "as-published")(owner, attribute, value)
 
 
 @frozen(kw_only=True)
@@ -43,20 +80,12 @@ class MeniscusForce(SeparationForce):
 
     Parameters
     ----------
-    profile : {"exact", "arc", "as-published"}
+    profile : {"exact", "arc", "as-published"} or AsPublished
         ``"exact"``: the axisymmetric solution of the Young-Laplace equation at the volume (or the
         pressure) of the meniscus, up to the gap at which it loses stability; any contact angles.
         ``"arc"``: an arc of a circle that keeps its volume, a fast model; one force, taken through
-        its neck or belly, on both bodies. ``"as-published"``: Eq. (3.11) between flats and Eq.
-        (3.12) on a sphere as printed, known to be wrong (their errata are listed by
-        `plan.cite()`), for reproduction only.
-    pulled : {"lower", "upper"}
-        Body whose contact circle and contact angle enter Eq. (3.11); as-published only.
-    radius : {"arc", "disc"}
-        Radius in Eq. (3.11) of a volume; as-published only. ``"arc"``: that of the contact circle
-        of the arc of Eqs. (3.38) to (3.40), as the source has it, up to the gap at which its neck
-        closes. ``"disc"``: that of an upright disc, which is near the other for films much wider
-        than high, and is what the law ``PUBLISHED`` of the FMU ``stiction-mass`` takes.
+        its neck or belly, on both bodies. ``"as-published"``, or `AsPublished` with its choices:
+        the printed equations, known to be wrong, for reproduction only.
 
     Notes
     -----
@@ -82,21 +111,33 @@ class MeniscusForce(SeparationForce):
 
     late: ClassVar[tuple[Column, ...]] = SHAPE_COLUMNS
 
-    profile: Literal["exact", "arc", "as-published"] = field(
-        default="exact", validator=choice("exact", "arc", "as-published")
+    profile: Literal["exact", "arc"] | AsPublished = field(
+        default="exact", converter=_as_profile, validator=_profile
     )
-    pulled: Literal["lower", "upper"] = field(default="lower", validator=choice("lower", "upper"))
-    radius: Literal["arc", "disc"] = field(default="arc", validator=choice("arc", "disc"))
+
+    @property
+    def printed(self) -> AsPublished:
+        """The printed equations that are taken; with the choices of the source, if none are."""
+        return self.profile if isinstance(self.profile, AsPublished) else AsPublished()
+
+    @property
+    def form(self) -> Literal["exact", "arc", "as-published"]:
+        """Name of the profile."""
+        return "as-published" if isinstance(self.profile, AsPublished) else self.profile
+
+    def takes_printed(self) -> bool:
+        """See `SeparationEffect.takes_printed`."""
+        return isinstance(self.profile, AsPublished)
 
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
-        if self.profile == "exact":
+        if self.form == "exact":
             return (
                 "Young-Laplace equation, Eq. (3.1), by Delaunay's surfaces; Orr, Scriven and "
                 "Rivas 1975",
             )
-        if self.profile == "arc":
+        if self.form == "arc":
             return (
                 "arc of Eqs. (3.38)-(3.41) of Cai and Bhushan 2008a, force through its neck plane",
             )
@@ -107,7 +148,7 @@ class MeniscusForce(SeparationForce):
 
     def cites(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.cites`."""
-        if self.profile != "as-published":
+        if self.form != "as-published":
             return self.sources
         flats, sphere = self.sources
         return (flats,) if scene.interface.is_flat else (sphere,)
@@ -124,23 +165,19 @@ class MeniscusForce(SeparationForce):
         """See `Effect.lacks`."""
         meniscus = scene.meniscus
         missing: tuple[str, ...] = ()
-        given = [
-            n for n, left in (("pulled", "lower"), ("radius", "arc")) if getattr(self, n) != left
-        ]
-        if given and not (self.takes_printed() and scene.interface.is_flat):
-            named = " and ".join(f"{name}={getattr(self, name)!r}" for name in given)
-            missing += (f'two flats and profile="as-published" for {named}, which Eq. (3.11) has',)
+        if not scene.interface.is_flat and self.printed != AsPublished():
+            missing += (f"two flats for {self.profile}, which Eq. (3.11) has",)
         if scene.meniscus.has_pressure:
             return missing + self._lacks_at_pressure(scene)
         if not scene.interface.is_flat and meniscus.volume is None:
             missing += ("interface.meniscus.volume [m3]: a flooded sphere has no meniscus",)
-        if self.profile == "as-published" and isinstance(scene.interface.lower.surface, Sphere):
+        if self.form == "as-published" and scene.interface.curvatures[0]:
             missing += ("the sphere as the upper body: Eq. (3.12) is printed for that",)
         return missing + needs_extent(scene)
 
     def _lacks_at_pressure(self, scene: SeparationScene) -> tuple[str, ...]:
         missing: tuple[str, ...] = ()
-        if self.profile != "exact":
+        if self.form != "exact":
             missing += ('profile="exact" at a fixed pressure (or interface.meniscus.volume [m3])',)
         if scene.interface.is_flat:
             missing += (
@@ -154,15 +191,15 @@ class MeniscusForce(SeparationForce):
         if not prepared.scene.interface.is_flat:
             from .meniscus_sphere import sphere_law
 
-            return sphere_law(prepared, self.profile)
-        if self.profile == "as-published":
-            return printed_law(prepared, self.pulled, self.radius)
-        return exact_law(prepared) if self.profile == "exact" else arc_law(prepared)
+            return sphere_law(prepared, self.form)
+        if self.form == "as-published":
+            return printed_law(prepared, self.printed.pulled, self.printed.radius)
+        return exact_law(prepared) if self.form == "exact" else arc_law(prepared)
 
     def late_curves(self, run: RunCurves) -> Mapping[str, Curve]:
         """See `SeparationEffect.late_curves`: the shape of the meniscus."""
-        is_disc = self.takes_printed() and self.radius == "disc"
-        return shape_curves(type(self), self.profile, run, is_disc=is_disc)
+        is_disc = self.takes_printed() and self.printed.radius == "disc"
+        return shape_curves(type(self), self.form, run, is_disc=is_disc)
 
     def notes(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `SeparationEffect.notes`: what pulls where no amount of liquid is given."""
@@ -179,7 +216,7 @@ class MeniscusForce(SeparationForce):
         """See `SeparationEffect.rimless_radius`: the contact circle."""
         from .meniscus_sphere import contact_radius
 
-        return contact_radius(prepared, self.profile, gap)
+        return contact_radius(prepared, self.form, gap)
 
     def equations(self, scene: SeparationScene) -> str:
         """See `SeparationEffect.equations`."""
@@ -230,9 +267,9 @@ def _erratum(plan: PlanView, effect: MeniscusForce) -> PublishedValue:
     else:
         several = film.menisci > 1
         number, more = ("3.33", {"number": film.menisci}) if several else ("3.11", {})
-        one, is_pinned = printed_radius(prepared, effect.pulled, effect.radius, gap)
+        one, is_pinned = printed_radius(prepared, effect.printed.pulled, effect.printed.radius, gap)
         radius = one * math.sqrt(film.menisci)
-        made = published(number, radius=radius, pulled=effect.pulled, **given, **more)
+        made = published(number, radius=radius, pulled=effect.printed.pulled, **given, **more)
         if not is_pinned:
             made = _against_exact(made, prepared)
     return made._replace(name=f"{MeniscusForce.name}, {made.name}")

@@ -14,8 +14,10 @@ from .base import ForceLaw
 from .film_shape import FilmShape
 
 if TYPE_CHECKING:
-    from ...scene.scenes import SeparationScene
+    from ...scene.scenes import SeparationScene, SlidingScene
     from .prepared import PreparedScene
+
+    Prepared = PreparedScene[SeparationScene] | PreparedScene[SlidingScene]
 
 __all__ = [
     "PrintedRadius",
@@ -132,7 +134,7 @@ class PrintedRadius(NamedTuple):
 
 
 def printed_radius(
-    prepared: PreparedScene[SeparationScene],
+    prepared: Prepared,
     pulled: Body,
     radius: Literal["arc", "disc"],
     gap: float,
@@ -146,18 +148,14 @@ def printed_radius(
     return PrintedRadius((both.pinned if is_pinned else both.free)(gap), is_pinned)
 
 
-def _circle_on(
-    pulled: Body, prepared: PreparedScene[SeparationScene], gap: float, circle: float
-) -> float:
+def _circle_on(pulled: Body, prepared: Prepared, gap: float, circle: float) -> float:
     """Radius of the contact circle [m] on a body, from that on the lower one."""
     if pulled == "lower":
         return circle
     return arc_flat.upper_contact_radius(arc_flat.shape(*prepared.angles), gap, circle)
 
 
-def _arcs(
-    prepared: PreparedScene[SeparationScene], force: Callable[[float, float], float]
-) -> _Film:
+def _arcs(prepared: Prepared, force: Callable[[float, float], float]) -> _Film:
     """Force over surface tension [m] of arcs, from the gap and the lower contact circle [m]."""
     film, arc = prepared.film, arc_flat.shape(*prepared.angles)
     volume, rim = film.volume, film.rim

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
-from attrs import field, frozen
+from attrs import Attribute, field, frozen
 
 from ...capillary.arc import flat as arc_flat
 from ...errors import DescriptionError
 from ...units import si
-from ...validators import choice, optional, positive
+from ...validators import positive, refuse
 from .base import FilmEnd
 from .meniscus import MeniscusForce
 from .meniscus_flat import exact_end
@@ -26,18 +26,24 @@ __all__ = ["Rupture"]
 _JUST_BELOW = 1.0 - 1e-6  # of the gap at which a bridge ends
 
 
+def _gap(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    if value in ("limit", "zero-neck"):
+        return
+    if isinstance(value, str) and not value[:1].isdigit():  # a word, no length with its unit
+        raise refuse(owner, attribute, value, "be positive and finite, 'limit' or 'zero-neck'")
+    positive(owner, attribute, value)
+
+
 @frozen(kw_only=True)
 class Rupture(FilmEnd):
     """The film breaks at a gap, and with it end both the meniscus and the viscous force.
 
     Parameters
     ----------
-    gap : float, optional
-        Break distance [m], for example measured. None: by `criterion`.
-    criterion : {"limit", "zero-neck"}
-        ``"limit"``: where the exact bridge of this volume (or pressure) loses stability.
-        ``"zero-neck"``: where the neck of the arc vanishes, as published; 1.4 to 15 times too
-        far, for reproduction.
+    gap : float, "limit" or "zero-neck"
+        Break distance [m], for example measured. ``"limit"``: where the exact bridge of this
+        volume (or pressure) loses stability. ``"zero-neck"``: where the neck of the arc vanishes,
+        as published; 1.4 to 15 times too far, for reproduction.
 
     Notes
     -----
@@ -49,43 +55,44 @@ class Rupture(FilmEnd):
     name: ClassVar[str] = "rupture"
     summary: ClassVar[str] = "the film breaks at a gap"
     takes_pressure: ClassVar[bool] = True
-    published_choice: ClassVar[str] = "criterion"
+    published_choice: ClassVar[str] = "gap"
 
-    gap: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
-    criterion: Literal["limit", "zero-neck"] = field(
-        default="limit", validator=choice("limit", "zero-neck")
+    gap: float | Literal["limit", "zero-neck"] = field(
+        default="limit", validator=_gap, metadata=si("m")
     )
 
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
-        if self.gap is not None:
-            return ("break distance given with the scene",)
-        if self.criterion == "limit":
+        if self.gap == "limit":
             return (
                 "stability of the axisymmetric bridge: fold, tilt or detachment; Vogel 1987, "
                 "Lowry and Steen 1995",
             )
-        return ("zero neck of the arc, section 3.2.1.4 of Cai and Bhushan 2007a: an upper bound",)
+        if self.gap == "zero-neck":
+            return (
+                "zero neck of the arc, section 3.2.1.4 of Cai and Bhushan 2007a: an upper bound",
+            )
+        return ("break distance given with the scene",)
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.liquid_needs`."""
-        at_pressure = self.gap is None and scene.meniscus.has_pressure
+        at_pressure = isinstance(self.gap, str) and scene.meniscus.has_pressure
         return ("surface_tension",) if at_pressure else ()
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
         meniscus = scene.meniscus
-        if self.gap is not None or meniscus.volume is not None:
+        if not isinstance(self.gap, str) or meniscus.volume is not None:
             return ()
-        if scene.meniscus.has_pressure and self.criterion == "limit":
+        if scene.meniscus.has_pressure and self.gap == "limit":
             return ()
         return ("interface.meniscus.volume [m3] (or Rupture.gap [m])",)
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> float:
         """See `FilmEnd.prepare`."""
-        if self.gap is None:
-            return _limit(prepared) if self.criterion == "limit" else _zero_neck(prepared)
+        if isinstance(self.gap, str):
+            return _limit(prepared) if self.gap == "limit" else _zero_neck(prepared)
         start = prepared.scene.loading.initial_gap
         if self.gap <= start:
             expected = f"exceed initial_gap = {start:g} m"
@@ -94,16 +101,16 @@ class Rupture(FilmEnd):
 
     def rimless_radius(self, prepared: PreparedScene[SeparationScene], gap: float) -> float:
         """See `SeparationEffect.rimless_radius`: the contact circle where the bridge ends."""
-        if self.gap is not None:
+        if not isinstance(self.gap, str):
             return 0.0
         from .meniscus_sphere import contact_radius
 
-        profile = "exact" if self.criterion == "limit" else "arc"
+        profile = "exact" if self.gap == "limit" else "arc"
         return contact_radius(prepared, profile, self.prepare(prepared) * _JUST_BELOW)
 
     def takes_printed(self) -> bool:
         """See `SeparationEffect.takes_printed`: the zero neck of the source is the arc's end."""
-        return self.criterion == "zero-neck" and self.gap is None
+        return self.gap == "zero-neck"
 
     def equations(self, scene: SeparationScene) -> str:
         """See `SeparationEffect.equations`.
@@ -111,12 +118,12 @@ class Rupture(FilmEnd):
         The zero neck is the end of the arc, and alone a bound; it does not go with the exact
         bridge, nor the exact limit with printed forces.
         """
-        if self.gap is not None:
+        if not isinstance(self.gap, str):
             return ""
         if not self.takes_printed():
             return "consistent"
         meniscus = scene.effect(MeniscusForce)
-        return "as-published" if meniscus is not None and meniscus.profile == "exact" else ""
+        return "as-published" if meniscus is not None and meniscus.form == "exact" else ""
 
     def errata(self, plan: PlanView) -> tuple[PublishedValue, ...]:
         """See `SeparationEffect.errata`."""

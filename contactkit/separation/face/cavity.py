@@ -25,7 +25,7 @@ from ..cavity.state import FULL, Cavity, Phase
 from ..integrator.tableau import NODES
 from .film import FaceFilm
 from .grid import FaceGrid
-from .held_voids import FirstOpening, HeldVoids
+from .held_voids import FirstOpening, HeldVoids, Nearby
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -101,6 +101,7 @@ class FaceCavity:
 
     _opening: FirstOpening | None = field(init=False, repr=False)
     _last: list[_Known] = field(init=False, factory=list, repr=False)
+    _nearby: Nearby = field(init=False, factory=Nearby, repr=False)
 
     @_liquid.default
     def _find_liquid(self) -> GridFilm:
@@ -161,6 +162,8 @@ class FaceCavity:
         guess = state.liquid_fraction >= 1.0
         if self._opening is not None:
             guess &= self._opening.full_at(end, (end - start) / dt)
+        elif self._nearby.full is not None and end > start:
+            guess &= self._nearby.full
         return unchecked_step(state, self.grid.relief + end, dt, full=guess)
 
     def _as_of_the_method(self, missed: float) -> float:
@@ -223,7 +226,7 @@ class FaceCavity:
         """Film whose voids are those of a thickness of its liquid [m] at a gap [m]."""
         height = self.grid.relief + gap
         full = (liquid >= height * (1.0 - 1e-12)) | ~self.grid.face.loaded
-        return HeldVoids(self.grid, self._liquid, full, self._opening)
+        return HeldVoids(self.grid, self._liquid, full, self._opening, self._nearby)
 
     def _volume(self, gap: float) -> float:
         """Volume of the gap [m3]."""

@@ -154,10 +154,13 @@ def _law(grid: FaceGrid, gaps: tuple[float, float]) -> tuple[DampingLaw, float]:
 
     if grid.is_even:
         return face_damping(grid.face), 0.0
-    low, high = _NEARER * gaps[0], _FARTHER * gaps[1]
+    # In the distance from the highest peak of a relief, which is 0 without any.
+    peak = -float(grid.relief[grid.face.loaded].min())
+    low, high = _NEARER * (gaps[0] - peak), _FARTHER * gaps[1]
     points = math.ceil(_PER_DECADE * math.log10(high / low)) + 1
-    law = tabulate_damping(grid.face, (low, high), grid.relief, points=points)
+    law = tabulate_damping(grid.face, (peak + low, peak + high), grid.relief, points=points)
     # Midway between the points around the smallest gap of the scene.
     step = (high / low) ** (1.0 / (points - 1))
-    place = low * step ** (math.floor(math.log(gaps[0] / low) / math.log(step)) + 0.5)
+    place = math.floor(math.log((gaps[0] - peak) / low) / math.log(step)) + 0.5
+    place = peak + low * step**place
     return law, abs(law.coefficient(place) / _coefficient(grid, place) - 1.0)

@@ -53,7 +53,10 @@ def gridded(shape: FaceShape, cells: int) -> FaceGrid:
     nearest = _smooth(shape, *_points(shape))
     smooth = _smooth(shape, face.x, face.y) - float(np.nanmin(nearest))
     # Outside the film, where liquid comes from, it may not be nearer than within.
-    return FaceGrid(face, np.maximum(smooth, 0.0) + _depths(shape, face), False)
+    relief = np.maximum(smooth, 0.0) + _depths(shape, face)
+    for one in shape.reliefs:
+        relief = relief - _heights(one, face)
+    return FaceGrid(face, relief, False)
 
 
 def _hole(hole: FaceHole) -> Hole | Pocket:
@@ -73,6 +76,17 @@ def _points(shape: FaceShape) -> tuple[Map, Map]:
 def _smooth(shape: FaceShape, x: Map, y: Map) -> Map:
     found: Map = shape.tilt[0] * x + shape.tilt[1] * y
     return found + 0.5 * shape.curvature * (x * x + y * y)
+
+
+def _heights(relief: Any, face: Face) -> Map:
+    """Heights of a map at the cells [m], by straight lines between its pixels."""
+    from scipy.ndimage import map_coordinates
+
+    size = relief.pixel_size
+    dy, dx = size if isinstance(size, tuple) else (size, size)
+    ny, nx = relief.heights.shape
+    places = np.broadcast_arrays(face.y / dy + 0.5 * (ny - 1), face.x / dx + 0.5 * (nx - 1))
+    return np.asarray(map_coordinates(relief.heights, places, order=1, mode="nearest"))
 
 
 def _depths(shape: FaceShape, face: Face) -> Map:

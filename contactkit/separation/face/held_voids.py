@@ -12,6 +12,7 @@ and speed. Beyond, where the cavity grows, it is the obstacle problem of the sam
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -32,6 +33,7 @@ __all__ = ["FirstOpening", "HeldForce", "HeldVoids"]
 _PINNED = 1e3  # growth of a void over the fastest inflow of a cell: it cannot fill
 _NEAREST = 0.05  # distance of a rim over a cell, the least that the grid takes
 _LADDER = (1e-2, 1e6, 49)  # speed over that of inception less 1: six solutions in a decade
+_STALE = 0.05  # relative move of gap or speed within which slopes serve again
 _NEAR = 1e-6  # relative difference of gap and speed for slopes; pressures are right to 1e-12
 
 
@@ -52,6 +54,26 @@ class _Linear(NamedTuple):
     most: float  # speed at which a full cell cavitates [m/s]
 
 
+class Nearby:
+    """Solution of the last place, from which the next begins: full cells, and slopes.
+
+    Slopes only steer the iteration of a step: those of a place within a twentieth do.
+    """
+
+    def __init__(self) -> None:
+        self.full: Mask | None = None
+        self._place, self._slopes = (0.0, 0.0), (0.0, 0.0)
+
+    def slopes(
+        self, gap: float, speed: float, solved: Callable[[], tuple[float, float]]
+    ) -> tuple[float, float]:
+        """Slopes over gap and speed [N/m], [N.s/m]; `solved` finds them where none are near."""
+        gap_was, speed_was = self._place
+        if abs(gap - gap_was) > _STALE * gap or abs(speed - speed_was) > _STALE * abs(speed):
+            self._place, self._slopes = (gap, speed), solved()
+        return self._slopes
+
+
 class HeldVoids:
     """Film on a grid with some of its cells full and voids in the others.
 
@@ -65,57 +87,65 @@ class HeldVoids:
         Cells without a void.
     opening : FirstOpening, optional
         Force between even faces where the cavity of a full film has grown.
+    nearby : Nearby, optional
+        Solution of the last place.
     """
 
     def __init__(
-        self, grid: FaceGrid, film: GridFilm, full: Mask, opening: FirstOpening | None = None
+        self,
+        grid: FaceGrid,
+        film: GridFilm,
+        full: Mask,
+        opening: FirstOpening | None = None,
+        nearby: Nearby | None = None,
     ) -> None:
         self._grid, self._film, self._full, self._opening = grid, film, full, opening
-        self._guess = full
+        self._nearby = nearby or Nearby()
         self._area = float(grid.face.cell_area)
         self._held = float((grid.face.loaded & ~full).sum()) * self._area
         self._known: dict[float, _Linear] = {}
 
     def __call__(self, gap: float, speed: float) -> HeldForce:
         """Force at a gap [m] and a speed [m/s]."""
+        if not self._grid.is_even:
+            force, area = self._solution(gap, speed)
+            slopes = self._nearby.slopes(gap, speed, lambda: self._slopes(gap, speed, force))
+            return HeldForce(force, *slopes, area)
         linear = self._linear(gap)
         if speed <= linear.most:
-            force = linear.force + linear.by_speed * speed
-            by_gap = self._by_gap(gap, speed, force, linear.by_speed)
-            return HeldForce(force, by_gap, linear.by_speed, self._held)
-        if self._opening is not None:
-            grown = self._opening.beyond(gap, speed, self._full)
+            force, by_speed, area = (
+                linear.force + linear.by_speed * speed,
+                linear.by_speed,
+                self._held,
+            )
+        else:
+            grown = self._opening and self._opening.beyond(gap, speed, self._full)
             if grown is not None:
                 return grown
-        force, area = self._beyond(gap, speed)
-        faster = self._beyond(gap, speed * (1.0 + _NEAR))[0]
-        by_speed = max(faster - force, 0.0) / (_NEAR * speed)
-        return HeldForce(force, self._by_gap(gap, speed, force, by_speed), by_speed, area)
+            force, area = self._solution(gap, speed)
+            faster = self._solution(gap, speed * (1.0 + _NEAR))[0]
+            by_speed = max(faster - force, 0.0) / (_NEAR * speed)
+        return HeldForce(force, -3.0 * by_speed * speed / gap, by_speed, area)  # by v/h^3
 
-    def _by_gap(self, gap: float, speed: float, force: float, by_speed: float) -> float:
-        if self._grid.is_even:  # a function of v/h^3
-            return -3.0 * by_speed * speed / gap
-        near = gap * (1.0 + _NEAR)
-        linear = self._linear(near, keeps=False)
-        if speed <= linear.most:
-            return (linear.force + linear.by_speed * speed - force) / (near - gap)
-        return (self._beyond(near, speed)[0] - force) / (near - gap)
+    def _slopes(self, gap: float, speed: float, force: float) -> tuple[float, float]:
+        """Slopes over gap and speed [N/m], [N.s/m], by differences."""
+        wider = self._solution(gap * (1.0 + _NEAR), speed)[0]
+        more = _NEAR * (abs(speed) or self._linear(gap).most)
+        faster = self._solution(gap, speed + more)[0]
+        return (wider - force) / (_NEAR * gap), max(faster - force, 0.0) / more
 
     def most(self, gap: float) -> float:
         """Speed [m/s] at which a full cell cavitates at a gap [m]."""
         return self._linear(gap).most
 
-    def _linear(self, gap: float, *, keeps: bool = True) -> _Linear:
+    def _linear(self, gap: float) -> _Linear:
         """Force over speed at a gap [m]; between even faces that of the first gap, scaled."""
         if self._grid.is_even and self._known:
             ((first, known),) = self._known.items()
             scale = (gap / first) ** 3
             return _Linear(known.force, known.by_speed / scale, known.most * scale)
         if gap not in self._known:
-            found = self._solved(gap)
-            if not keeps:
-                return found
-            self._known = {gap: found}
+            self._known = {gap: self._solved(gap)}
         return self._known[gap]
 
     def _solved(self, gap: float) -> _Linear:
@@ -129,11 +159,12 @@ class HeldVoids:
             most = np.where(by_speed > 0.0, left / by_speed, np.inf)
         return _Linear(rest.force, (rest.force - closing.force) / speed, float(most.min()))
 
-    def _beyond(self, gap: float, speed: float) -> tuple[float, float]:
-        """Force [N] and area of the cavity [m2] where full cells cavitate."""
-        state = self._pressure(gap, speed, self._guess)
+    def _solution(self, gap: float, speed: float) -> tuple[float, float]:
+        """Force [N] and area of the cavity [m2], with the cells that cavitate besides."""
+        last = self._nearby.full
+        state = self._pressure(gap, speed, self._full if last is None else last & self._full)
         void = void_of(self._grid, state)
-        self._guess = ~void
+        self._nearby.full = ~void
         return state.force, float(void.sum()) * self._area
 
     def _pressure(self, gap: float, speed: float, guess: Mask) -> GridFilmState:

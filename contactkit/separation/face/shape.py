@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import reduce
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ...lubrication.reynolds import damping
 from ...scene.faces import FaceHole, Recess, Vent
@@ -27,11 +27,14 @@ class FaceShape(NamedTuple):
     """Slopes of the gap along x and y [-]."""
     curvature: float
     """Curvature of the gap [1/m]: of crowns, and of spheres."""
+    reliefs: tuple[Any, ...] = ()
+    """Height maps of both faces, each with `heights` [m] and `pixel_size` [m]."""
 
     @property
     def is_even(self) -> bool:
         """Whether the gap is the same everywhere."""
-        return not self.recesses and self.tilt == (0.0, 0.0) and self.curvature == 0.0
+        is_level = self.tilt == (0.0, 0.0) and self.curvature == 0.0
+        return is_level and not self.recesses and not self.reliefs
 
 
 class ClosedForm(NamedTuple):
@@ -61,6 +64,7 @@ def shape_of(interface: Interface) -> FaceShape:
         recesses=tuple(recess for face in faces for recess in face.recesses),
         tilt=(sum(face.tilt[0] for face in faces), sum(face.tilt[1] for face in faces)),
         curvature=interface.curvature + crowns,
+        reliefs=tuple(face.relief for face in faces if face.relief is not None),
     )
 
 
@@ -76,7 +80,7 @@ def closed_form(shape: FaceShape) -> ClosedForm | None:
     """
     body, inner = shape.outline.without_round_holes()
     holes = (*(Vent(shape=disc) for disc in inner), *shape.holes)
-    if shape.tilt != (0.0, 0.0):
+    if shape.tilt != (0.0, 0.0) or shape.reliefs:
         return None
     if shape.is_even and not holes:
         return _even(body)
@@ -119,7 +123,7 @@ def _around_the_middle(
     """Disc with one hole, or one recess, about its middle."""
     if len(holes) + len(recesses) != 1:
         return None
-    (one,) = (*holes, *recesses)
+    one: FaceHole | Recess = holes[0] if holes else recesses[0]
     if one.shape.circle is None:
         return None
     x, y, radius = one.shape.circle

@@ -11,9 +11,11 @@ from attrs import evolve, field, frozen
 
 from ...accuracy import Accuracy
 from ...errors import DescriptionError, InfeasibleError, PlanError
+from ...kinds import SLIDING_SCENE_EFFECTS
 from ...liquids.liquid import LiquidState
+from ...registry import Registries
 from ...scene.column import Column
-from ...scene.effect import EffectRegistry, check_listed
+from ...scene.effect import check_listed
 from ...scene.interface import Body, Interface
 from ...scene.plan import ScenePlan
 from ...scene.scenes import SlidingScene
@@ -22,8 +24,9 @@ from ..bodies import check_bodies
 from ..effects.base import SeparationEffect
 from ..effects.film_shape import FilmShape
 from ..effects.prepared import PreparedScene, prepare_scene
+from ..effects.published_film import published_film
 from ..effects.viscous import ShearLimit
-from .effects import SLIDING_EFFECTS, CouetteForce, SlideLaw, SlidingForce
+from .effects import CouetteForce, SlideLaw, SlidingForce
 
 __all__ = ["SlidingPlan", "divide_sliding", "plan_sliding"]
 
@@ -41,7 +44,6 @@ COLUMNS = MappingProxyType(
     }
 )
 """Columns that belong to no effect, by their names."""
-_KNOWN: EffectRegistry[SeparationEffect] = EffectRegistry(SLIDING_EFFECTS, ShearLimit)
 
 
 @frozen(eq=False)
@@ -51,7 +53,7 @@ class SlidingPlan(ScenePlan):
     ``print(plan)`` says what will be simulated and what will not; `cite` gives the sources.
     """
 
-    known_effects: ClassVar[EffectRegistry[SeparationEffect]] = _KNOWN
+    known_effects: ClassVar[Registries[Any]] = SLIDING_SCENE_EFFECTS
 
     prepared: PreparedScene[SlidingScene] = field(repr=False)
     laws: Mapping[type[SlidingForce], SlideLaw] = field(repr=False)
@@ -122,6 +124,9 @@ def plan_sliding(scene: SlidingScene, accuracy: Accuracy | None = None) -> Slidi
     _check_effects(scene, liquid)
     _check_gap(scene)
     prepared = prepare_scene(scene, accuracy, liquid)
+    drag = scene.effect(CouetteForce)
+    if drag is not None and drag.takes_printed():
+        prepared = evolve(prepared, film=published_film(prepared))
     forces = [effect for effect in scene.effects if isinstance(effect, SlidingForce)]
     laws = {type(effect): effect.prepare(prepared) for effect in forces}
     _check_path(scene, laws)
@@ -130,16 +135,17 @@ def plan_sliding(scene: SlidingScene, accuracy: Accuracy | None = None) -> Slidi
 
 
 def _check_effects(scene: SlidingScene, liquid: LiquidState) -> None:
-    kinds = check_listed(scene.effects, SeparationEffect, "sliding", _KNOWN)
+    kinds = check_listed(scene.effects, SeparationEffect, "sliding", SLIDING_SCENE_EFFECTS)
     if not any(isinstance(effect, SlidingForce) for effect in scene.effects):
         raise PlanError(
-            f"a sliding scene needs at least one force along the bodies; known: {_KNOWN.names}"
+            "a sliding scene needs at least one force along the bodies; known: "
+            f"{SLIDING_SCENE_EFFECTS.names}"
         )
     problems = [
         f"{type(effect).__name__} needs a SeparationScene: it acts where the gap opens; known for "
-        f"sliding: {_KNOWN.names}"
+        f"sliding: {SLIDING_SCENE_EFFECTS.names}"
         for effect in scene.effects
-        if type(effect) not in _KNOWN
+        if not isinstance(effect, SlidingForce) and type(effect) not in SLIDING_SCENE_EFFECTS
     ]
     if scene.meniscus.has_pressure:
         problems.append(
@@ -249,7 +255,5 @@ def divide_sliding(scene: SlidingScene, number: int) -> SlidingScene:
 
 def _smaller(body: Body, root: float) -> Body:
     """Sphere of a radius divided by a number; a flat as it is."""
-    surface = body.surface
-    if not isinstance(surface, Sphere):
-        return body
-    return Body(surface=Sphere(radius=surface.radius / root))
+    curvature = body.surface.curvature
+    return Body(surface=Sphere(radius=1.0 / curvature / root)) if curvature else body

@@ -103,7 +103,7 @@ CONTACTS: Mapping[type, Entry] = {
     ck.HardnessLimit: _entry(
         r"0 \le p \le H",
         ROUGH_MAP,
-        contact(HALF, ck.HardnessLimit(rule="constant", hardness=7.5e9)),
+        contact(HALF, ck.HardnessLimit(rule=ck.ConstantHardness(hardness=7.5e9))),
         ck.HardnessLimit,
         accuracy=MAP,
     ),
@@ -118,7 +118,7 @@ CONTACTS: Mapping[type, Entry] = {
         r"w_p \leftarrow w_p + \text{overlap where } p = H, \qquad \int P\,d\delta = \tfrac12 "
         r"\int p\,u\,dA + \int H\,dw_p\,dA",
         ROUGH_MAP + ", after 400 MPa in four steps",
-        contact(HALF, ck.HardnessLimit(rule="constant", hardness=7.5e9), HISTORY),
+        contact(HALF, ck.HardnessLimit(rule=ck.ConstantHardness(hardness=7.5e9)), HISTORY),
         ck.PlasticHistory,
         accuracy=MAP,
     ),

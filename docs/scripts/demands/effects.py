@@ -8,9 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
-from contactkit.separation.effects.registry import SEPARATION_EFFECTS
-from contactkit.separation.sliding.effects import SLIDING_EFFECTS
+from contactkit.kinds import CONTACT_EFFECTS, SEPARATION_EFFECTS, SLIDING_EFFECTS
 
 from .cost import cost
 from .effect_scenes import ENTRIES

@@ -42,7 +42,7 @@ def release_scene(case: dict[str, Any]) -> ck.SeparationScene:
         stiffness=case["k_s"],
         rise_time=case["tau"],
     )
-    effects = [ck.MeniscusForce(profile="as-published", radius="disc"), ck.ViscousForce()]
+    effects = [ck.MeniscusForce(profile=ck.AsPublished(radius="disc")), ck.ViscousForce()]
     if case["dp_cav"]:
         effects.append(ck.TensionLimit(strength=case["dp_cav"], cavity="truncated"))
     return ck.SeparationScene(

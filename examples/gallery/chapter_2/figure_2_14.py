@@ -33,7 +33,7 @@ LABELS = [f"$H/E_3$ = {0.05 * h:g}" for h in HARDNESSES]
 
 def bound(hardness: float) -> ck.HardnessLimit:
     """Pressure bound of a hardness over 0.05 E3."""
-    return ck.HardnessLimit(rule="constant", hardness=hardness * rough.HARDNESS)
+    return ck.HardnessLimit(rule=ck.ConstantHardness(hardness=hardness * rough.HARDNESS))
 
 
 def compute(draft: bool = False) -> dict[str, np.ndarray]:

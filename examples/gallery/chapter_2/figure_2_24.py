@@ -46,7 +46,7 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
             sampling,
             LOADS,
             COLUMNS,
-            ck.HardnessLimit(rule="constant", hardness=h * rough.HARDNESS),
+            ck.HardnessLimit(rule=ck.ConstantHardness(hardness=h * rough.HARDNESS)),
             film,
         )
         for h in HOMOGENEOUS

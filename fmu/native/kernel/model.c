@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Fraction of the time by which two clocks may differ: a master that adds up n equal steps is off by
-   about sqrt(n) units of round-off since it last set the time. */
+/* Fraction of the time by which two clocks may differ: master and model add up steps on their own, and
+   each sum is off by some units of round-off. */
 #define CLOCK (16.0 * DBL_EPSILON)
 #define REST 1e-9 /* fraction of a step up to which another is put off, as masters end with round-off */
 #define OFF 1e-6  /* fraction of a step by which it may start or end off its time */

@@ -12,7 +12,7 @@
 /* Two gaps closer than this, relatively, are one: a step that is cut at an event ends within 1e-13 of
    it (`locate`), and the next one must not meet it again. */
 #define SAME 1e-11
-#define NO_FORCE 1e-290 /* sum of the forces [N] below which none acts: sums of squares underflow */
+#define NO_FORCE 1e-290 /* sum of the forces [N] below which none acts; `pose` adds 1e-300 */
 #define FOOT 1e-6       /* sum of the forces over the pull to come, at the foot of a ramp */
 /* What an event of a cavity may be missed by, over its scale: far below rtol, and above what round-off
    leaves of rates that vanish there. */

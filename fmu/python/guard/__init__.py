@@ -24,7 +24,7 @@ __all__ = ["can_guard", "protect"]
 
 _PLATFORM = "linux-x86_64"  # the one whose loader needs a guard most, and that could be tested
 _FOLDER = "binaries/linux64"
-_SHARED = ("host.c", "host.h")  # of the native kernel
+_SHARED = ("host.c", "host.h")  # of the native kernel, in fmi
 
 
 def can_guard() -> bool:
@@ -78,7 +78,7 @@ def _compiler() -> str:
 @cache
 def _compiled(compiler: str, _variable: str) -> bytes:
     here = Path(__file__).parent
-    kernel = here.parents[1] / "native" / "kernel"
+    kernel = here.parents[1] / "native" / "kernel" / "fmi"
     with tempfile.TemporaryDirectory(prefix="contactkit-") as name:
         folder = Path(name)
         for source in (here / "guard.c", *(kernel / shared for shared in _SHARED)):

@@ -18,7 +18,7 @@ from ....errors import ConvergenceError
 from ....export.report import Report
 from ....fmu.slaves.stiction_mass import mass_values
 from ....scene.scenes import SeparationScene
-from ....separation.effects.registry import TensionLimit
+from ....separation.effects.viscous import TensionLimit
 from ....work_precision import Outcome, Setting, WorkPrecision, sweep
 from ..scene import InjectorScene
 from .cosimulation import InjectorFmus, build_fmus

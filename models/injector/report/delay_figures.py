@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ....plot import style as plot
-from ....separation.effects.registry import TensionLimit
+from ....separation.effects.viscous import TensionLimit
 from ....units import bar, celsius
 from ..delays import delay
 from ..scene import InjectorScene

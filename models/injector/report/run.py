@@ -12,7 +12,7 @@ from ....export.report import FmuStart, Report
 from ....files.results import save_csv, save_npz
 from ....files.scenes import unstructure
 from ....separation.effects.base import FilmStatus
-from ....separation.effects.registry import TensionLimit
+from ....separation.effects.viscous import TensionLimit
 from ....separation.plan import plan
 from ....units import bar, celsius
 from ..delays import delay, dry_delay

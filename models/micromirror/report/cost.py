@@ -12,7 +12,7 @@ from pathlib import Path
 from attrs import evolve
 
 from ....errors import ConvergenceError, PlanError
-from ....separation.effects.registry import MeniscusForce
+from ....separation.effects.meniscus import MeniscusForce
 from ....separation.plan import Plan
 from ....work_precision import Outcome, Setting, WorkPrecision, sweep
 from ..coupling import couple
@@ -82,7 +82,7 @@ def _settings(
     ]
     coupled = [("tips in this process", law, False)]
     film = scene.tip.effect(MeniscusForce)
-    if film is not None and film.profile == "exact":
+    if film is not None and film.form == "exact":
         arc = tuple(evolve(e, profile="arc") if e is film else e for e in scene.effects)
         less = tip_law(evolve(scene, effects=arc).tip, scene.study.humidity)
         coupled.append(("arc in place of the exact meniscus", less, True))

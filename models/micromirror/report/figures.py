@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ....plot import style as plot
-from ....separation.effects.registry import MeniscusForce
+from ....separation.effects.meniscus import MeniscusForce
 from ..coupling import FREE, couple
 from ..release import Release, landing
 from ..scene import MicromirrorScene

@@ -13,7 +13,7 @@ import numpy as np
 from ....export.report import FmuStart, Report
 from ....files.results import save_csv, save_npz
 from ....files.scenes import unstructure
-from ....separation.effects.registry import MeniscusForce
+from ....separation.effects.meniscus import MeniscusForce
 from ..coupling import HELD, SIGNALS
 from ..electrostatics import pull_in
 from ..release import Landing, Release, landing, release_curve

@@ -77,7 +77,7 @@ def run(angles, liquid, final_gap, *, face=math.inf, count=1, **choices):
     scene = ck.SeparationScene(
         interface=ck.Interface(lower=flat, upper=flat, meniscus=film),
         loading=loadings.imposed(initial_gap=HEIGHT, final_gap=final_gap, speed=1e-6),
-        effects=(ck.MeniscusForce(profile="as-published", **choices),),
+        effects=(ck.MeniscusForce(profile=ck.AsPublished(**choices)),),
     )
     return ck.simulate(ck.plan(scene, ck.Accuracy(points=12)))
 

@@ -56,7 +56,7 @@ FILM = ck.Layer(material=evolve(STEEL, young_modulus=900e9), thickness=1.5 * PIX
 KINDS = {
     "half-space": (STEEL, HALF),
     "film": (ck.Stack(layers=(FILM,), substrate=STEEL), (ck.LayeredHalfSpace(),)),
-    "hardness": (STEEL, (*HALF, ck.HardnessLimit(rule="constant", hardness=4e9))),
+    "hardness": (STEEL, (*HALF, ck.HardnessLimit(rule=ck.ConstantHardness(hardness=4e9)))),
 }
 NAMES = (
     "max_pressure",
@@ -190,7 +190,7 @@ def test_areas_have_at_least_the_excess_of_cut_pixels():
     ball = -(x**2 + y**2) / (2.0 * 10e-6)
     bare = pressed(ball, 1e-7, pressure=60e6, periodic=False)
     for fraction, plastic in ((0.95, True), (1.02, False), (3.0, False)):
-        limit = ck.HardnessLimit(rule="constant", hardness=fraction * bare.max_pressure)
+        limit = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=fraction * bare.max_pressure))
         result = pressed(ball, 1e-7, (*HALF, limit), pressure=60e6, periodic=False)
         assert (result.plastic_area > 0.0) == plastic
         found = discretisation_error(result)
@@ -205,10 +205,10 @@ def test_areas_have_at_least_the_excess_of_cut_pixels():
 
 def test_a_hardness_map_goes_with_the_pixels():
     hardness = np.where(np.arange(N) % 2, 4e9, 6e9) * np.ones((N, 1))
-    limit = ck.HardnessLimit(rule="constant", hardness=ck.HardnessMap(hardness))
+    limit = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=ck.HardnessMap(hardness)))
     result = pressed(band_limited(1, 8), PIXEL, (*HALF, limit))
     found = discretisation_error(result)
-    of = [one.plan.scene.effect(ck.HardnessLimit).hardness.values for one in found.companions]
+    of = [one.plan.scene.effect(ck.HardnessLimit).rule.hardness.values for one in found.companions]
     assert [one.shape for one in of] == [(16, 16)] * 2 + [(8, 8)] * 2
     assert [one.flat[0] for one in of] == [6e9, 4e9, 6e9, 6e9]
 

@@ -6,13 +6,16 @@ operators it takes as matrices.
 """
 
 import math
+from typing import ClassVar
 
 import numpy as np
 import pytest
-from attrs import evolve
+from attrs import evolve, field, frozen
 
 import contactkit as ck
+from contactkit.contact.effects.base import ContactEffect
 from contactkit.contact.effects.elasticity import bodies_of
+from contactkit.contact.outer.displacement import TractionDisplacement
 from contactkit.contact.slip.coupling import coupling_of
 from contactkit.elasticity.hardness_rules import effective_hardness
 
@@ -152,7 +155,7 @@ def test_adhesion_with_friction_coupling_is_that_of_plain_steps(loading):
 def test_adhesion_with_a_local_hardness_is_that_of_plain_steps():
     result = solved(
         adhesion(),
-        ck.HardnessLimit(displacement="local"),
+        ck.HardnessLimit(rule=ck.ContinuousHardness(displacement="local")),
         solid=COATED,
         loading=ck.Pressing(pressure=8e7),
     )
@@ -168,7 +171,9 @@ def test_adhesion_with_one_hardness_is_that_of_its_largest_displacement():
     assert found < 5.9e8
     largest = result.displacement[result.contact].max()
     assert found == pytest.approx(float(rule(np.array(largest))), rel=2e-7)
-    fixed = solved(adhesion(), ck.HardnessLimit(rule="constant", hardness=found), solid=COATED)
+    fixed = solved(
+        adhesion(), ck.HardnessLimit(rule=ck.ConstantHardness(hardness=found)), solid=COATED
+    )
     assert result.pressure == pytest.approx(fixed.pressure, abs=1e-6 * result.max_pressure)
 
 
@@ -255,10 +260,43 @@ def test_a_pull_is_carried_beside_friction_and_too_much_of_it_refused():
         solved(adhesion(), *SLIDING, loading=ck.Pressing(pressure=-1e9))
 
 
+class LinerDisplacement(TractionDisplacement):
+    """Compression of a liner, in proportion to the pressure."""
+
+    name = "compression of the liner"
+
+
+@frozen(kw_only=True)
+class Liner(ContactEffect[None]):
+    """An effect of one's own: a liner of independent springs between the bodies."""
+
+    name: ClassVar[str] = "liner"
+    summary: ClassVar[str] = "liner of springs"
+    sources: ClassVar[tuple[str, ...]] = ("Winkler 1867",)
+    softness: float = field(metadata={"unit": "m/Pa"})
+
+    def unknowns(self, view):
+        """The compression, which lowers the heights."""
+        shape, own = view.grid.shape, view.self_influence
+        return (LinerDisplacement(lambda p: self.softness * p, shape, own, self.name),)
+
+
+def test_an_effect_of_ones_own_brings_an_unknown():
+    result = solved(Liner(softness=2e-18), adhesion())
+    compliance = matrix_of(result.plan.prepared.solver.displacement)
+    right = (result.heights + result.rigid_approach).ravel()
+    tension = result.of(ck.Adhesion).tension.ravel()
+    # Springs under the pressure of contact; the tension displaces the solid alone.
+    q = bounded(compliance + 2e-18 * np.eye(N * N), right + compliance @ tension, np.inf)
+    assert result.pressure.ravel() == pytest.approx(q - tension, abs=1e-5 * q.max())
+    alone = solved(adhesion())
+    assert result.max_pressure < 0.95 * alone.max_pressure
+
+
 # Histories ----------------------------------------------------------------------------------
 
-LIMIT = ck.HardnessLimit(rule="constant", hardness=3e8)
-HARD = ck.HardnessLimit(rule="constant", hardness=1e12)
+LIMIT = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=3e8))
+HARD = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=1e12))
 UP_AND_DOWN = ck.PlasticHistory(pressures=(8e7,), steps=2)
 
 

@@ -121,7 +121,7 @@ def test_a_sphere_follows_the_dense_solution_up_down_and_up():
             scene(
                 ck.Heights(heights=heights, pixel_size=WINDOW / 32),
                 ck.Pressing(force=LOADS[-1]),
-                ck.HardnessLimit(rule="constant", hardness=HARDNESS),
+                ck.HardnessLimit(rule=ck.ConstantHardness(hardness=HARDNESS)),
                 ck.PlasticHistory(forces=LOADS[:-1], steps=1),
                 solid=steel,
                 periodic=False,
@@ -209,7 +209,7 @@ def test_the_energy_of_forty_steps_adds_up_to_a_thousandth():
         loading=ck.Pressing(force=0.0),
         effects=(
             ck.HalfSpace(),
-            ck.HardnessLimit(rule="constant", hardness=0.6 * hertz),
+            ck.HardnessLimit(rule=ck.ConstantHardness(hardness=0.6 * hertz)),
             ck.PlasticHistory(forces=(force,), steps=40),
         ),
     )
@@ -248,7 +248,7 @@ def film(hard, soft):
 @pytest.mark.parametrize("displacement", ["largest", "local"])
 @pytest.mark.parametrize("hardness", [(3e8, 1e8), (1e8, 3e8)])
 def test_unloading_changes_no_hardness_that_depends_on_depth(hardness, displacement):
-    limit = ck.HardnessLimit(displacement=displacement)
+    limit = ck.HardnessLimit(rule=ck.ContinuousHardness(displacement=displacement))
     history = ck.PlasticHistory(pressures=(2e7, 1e6), steps=2)
     given = {"solid": film(*hardness)}
     result = pressed(ck.Pressing(pressure=2e7), limit, history, **given)
@@ -265,7 +265,7 @@ def test_unloading_changes_no_hardness_that_depends_on_depth(hardness, displacem
 
 def test_an_elastic_contact_has_no_memory():
     history = ck.PlasticHistory(pressures=(2e6,), steps=2)
-    limit = ck.HardnessLimit(rule="constant", hardness=1e12)
+    limit = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=1e12))
     part = pressed(ck.Pressing(pressure=1e6), limit, history).of(ck.PlasticHistory)
     assert part.plastic_work.max() == part.residual_depth.max() == part.plastic_area.max() == 0.0
     assert part.approach[1] == pytest.approx(part.approach[4], rel=1e-7)

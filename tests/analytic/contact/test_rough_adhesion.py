@@ -279,7 +279,7 @@ def test_the_energy_of_a_state_is_a_minimum_along_its_branch():
 
 def test_a_hardness_bounds_the_net_pressure():
     hardness = 2e7
-    limit = ck.HardnessLimit(rule="constant", hardness=hardness)
+    limit = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=hardness))
     plan = rough(LAWS[0], limit, n=24)
     result = ck.solve(plan.with_loading(ck.Approach(approach=3e-9)))
     assert result.max_pressure == pytest.approx(hardness, rel=1e-9)

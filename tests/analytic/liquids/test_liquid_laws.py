@@ -14,14 +14,15 @@ import pytest
 from attrs import fields
 
 from contactkit.errors import DescriptionError, ValidityWarning
-from contactkit.liquids.liquid import LAWS, Liquid, LiquidState
+from contactkit.kinds import TEMPERATURE_LAWS
+from contactkit.liquids.liquid import Liquid, LiquidState
 from contactkit.liquids.temperature_laws import LinearDensity, LinearSurfaceTension, TemperatureLaw
 from contactkit.liquids.viscosity import VogelViscosity, WaltherViscosity
 from contactkit.liquids.water import IapwsSurfaceTension, KellWaterDensity
 from contactkit.units import celsius, cSt, parse_quantity
 
 DATA = Path(str(resources.files("contactkit.data") / "liquids.toml"))
-BY_KIND = {law.kind: law for law in LAWS}
+BY_KIND = {law.kind: law for law in TEMPERATURE_LAWS}
 
 
 def walther(at_40: float, at_100: float, **more: Any) -> WaltherViscosity:

@@ -70,7 +70,7 @@ def test_a_loop_and_what_it_leaves_are_drawn():
         loading=ck.Pressing(pressure=1e7),
         effects=(
             ck.HalfSpace(),
-            ck.HardnessLimit(rule="constant", hardness=8e7),
+            ck.HardnessLimit(rule=ck.ConstantHardness(hardness=8e7)),
             ck.PlasticHistory(pressures=(1e7, 0.0), steps=2),
         ),
     )

@@ -142,7 +142,7 @@ def injector(film_scene, *effects, volume=VOLUME, face=FACE, **loading):
     )
 
 
-LAPLACE = ck.MeniscusForce(profile="as-published", radius="disc")
+LAPLACE = ck.MeniscusForce(profile=ck.AsPublished(radius="disc"))
 
 
 def test_a_result_gives_the_time_of_a_pull(film_scene):

@@ -84,8 +84,9 @@ def departures(found, exact, along="time", n=1000):
     worst = {}
     for name in found.columns:
         one, other = np.interp(places, x, found[name]), np.interp(places, y, exact[name])
-        scale = other if name == "gap" else np.ptp(exact[name]) or np.abs(exact[name]).max() or 1.0
-        worst[name] = float(np.max(np.abs(one - other) / scale))
+        known = exact[name][np.isfinite(exact[name])]  # a shape ends where the film breaks
+        scale = other if name == "gap" else np.ptp(known) or np.abs(known).max() or 1.0
+        worst[name] = float(np.nanmax(np.abs(one - other) / scale))
     return worst
 
 
@@ -231,8 +232,122 @@ def test_a_figure_draws_the_points():
 def test_lines_between_points_of_an_imposed_motion_are_right(scene):
     found = run(scene, points=20)
     exact = run(scene, points=20, curve_rtol=5e-5)
-    late = {column.name for effect in scene.effects for column in effect.late}
     worst = departures(found, exact, along="gap")
-    assert max(worst[name] for name in worst if name not in late) < 1e-3, worst
+    assert max(worst.values()) < 1e-3, worst
     assert len(found.gap) > 20
     assert found.scalars() == exact.scalars()
+
+
+def vibrated(scene, amplitude, phase=0.3, **loading):
+    given = {"initial_gap": 5e-6, "final_gap": 10e-6, "speed": 5e-4, "frequency": 300.0} | loading
+    vibration = ck.Vibration(amplitude=amplitude, frequency=given.pop("frequency"), phase=phase)
+    return attrs.evolve(scene, loading=ck.ImposedSpeed(**given, vibration=vibration))
+
+
+@pytest.mark.parametrize("amplitude", [1e-9, 1e-6, 4.8e-6])
+@pytest.mark.parametrize("frequency", [70.0, 300.0, 5e4])
+@pytest.mark.parametrize("is_cut", [False, True])
+def test_lines_over_cycles_are_right(amplitude, frequency, is_cut):
+    """Gap, speed, force and impulse by their formulas; 1e6 Pa at most where the pressure is cut."""
+    scene = film(*([CUT] if is_cut else []), viscosity=0.1)
+    found = run(vibrated(scene, amplitude, frequency=frequency), points=20)
+    time = found.time
+    assert (np.diff(time) > 0.0).all()
+    rng, pace = np.random.default_rng(3), 2.0 * math.pi * frequency
+    places = np.sort(rng.uniform(0.0, time[-1], 40_000))
+    within = np.diff(time)[np.searchsorted(time, places) - 1] < 0.5 / frequency
+    places = places[within]  # of a run of many cycles some are computed
+    assert len(places) > 1000
+    assert within.all() or "were computed" in found.message
+    angle = pace * places + 0.3
+    gap = 5e-6 + 5e-4 * places + amplitude * np.sin(angle)
+    speed = 5e-4 + pace * amplitude * np.cos(angle)
+    force = 1.5 * math.pi * 0.1 * R**4 * speed / gap**3
+    if is_cut:
+        most = math.pi * R**2 * 1e6
+        over = np.maximum(2.0 * force / most, 1.0)
+        force = np.where(over > 1.0, most * (1.0 - 0.5 / over), force)
+    assert np.interp(places, time, found.gap) == pytest.approx(gap, rel=1e-3)
+    for name, exact in (("speed", speed), ("viscous_force", force)):
+        drawn = np.interp(places, time, found[name])
+        assert np.abs(drawn - exact).max() < 1.01e-3 * np.ptp(exact), name
+    if not is_cut:
+        start = 5e-6 + amplitude * math.sin(0.3)
+        impulse = 0.75 * math.pi * 0.1 * R**4 * (start**-2 - gap**-2)
+        drawn = np.interp(places, time, found["viscous_impulse"])
+        assert np.abs(drawn - impulse).max() < 2e-3 * np.ptp(impulse)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        vibrated(film(TORN, viscosity=0.1), 2e-6),
+        pytest.param(
+            vibrated(film(ck.TensionLimit(strength="vapour"), viscosity=0.1), 5e-7, phase=1.3),
+            marks=pytest.mark.slow,
+        ),
+        vibrated(film(ck.ShearLimit(strength=1e4), viscosity=0.1), 2e-6),
+        vibrated(film(*MENISCUS, volume=1e-11), 1e-6, final_gap=60e-6, speed=5e-3),
+        vibrated(ball(), 2e-7, initial_gap=1e-6, final_gap=3e-6, speed=1e-4),
+    ],
+    ids=["cavity", "cavity at vapour pressure", "shear", "drop", "ball"],
+)
+def test_every_curve_over_cycles_is_right_between_its_points(scene):
+    found, exact = run(scene), run(scene, curve_rtol=5e-5)
+    worst = departures(found, exact, n=5000)
+    assert max(worst.values()) < 1.1e-3, worst
+    assert found.scalars() == exact.scalars()
+    ends = np.flatnonzero(np.diff(found["mean_pull"]))
+    assert len(ends) >= 2
+    assert (np.diff(found.time)[ends] < 1e-9).all()  # the mean of a cycle changes at once
+
+
+def test_numbers_of_a_vibration_compute_no_point_between(monkeypatch):
+    from contactkit.separation.vibration import curves
+
+    scene = vibrated(film(CUT, viscosity=0.1), 2e-6)
+    expected = run(scene)
+    assert expected.scalars()["highest_pull"][0] == pytest.approx(expected.pull.max(), rel=1e-3)
+    assert expected.scalars()["lowest_pull"][0] == pytest.approx(expected.pull.min(), rel=2e-3)
+    monkeypatch.setattr(curves, "with_middles", None)
+    result = run(scene)
+    assert result.scalars() == expected.scalars()
+    with pytest.raises(TypeError):
+        result.time  # noqa: B018
+
+
+def test_the_shape_of_a_bridge_is_right_next_to_where_it_breaks():
+    """Of a small drop under a sphere lines between other points missed the neck by 3 %."""
+    from contactkit.capillary import bridge
+
+    for loading in (
+        ck.ImposedSpeed(initial_gap=1e-9, final_gap=20e-6, speed=1e-3),
+        ck.ImposedForce(initial_gap=1e-9, final_gap=20e-6, force=1e-3, mass=1e-6),
+    ):
+        found = run(attrs.evolve(ball(), loading=loading))
+        end = found.plan.film.end
+        gaps = end * (1.0 - np.geomspace(1e-6, 0.5, 200))
+        exact = bridge(gaps, 1e-15, 0.0, 0.0, 0.0, 1e3)
+        before = found.gap <= end
+        for name, values in (
+            ("neck_radius", exact.neck),
+            ("contact_radius_lower", exact.radius_lower),
+        ):
+            drawn = np.interp(gaps, found.gap[before], found[name][before])
+            assert np.abs(drawn - values).max() < 1e-3 * np.nanmax(found[name])
+
+
+@pytest.mark.parametrize("name", ["film that breaks", "ball"])
+def test_validity_is_judged_up_to_the_instant_of_rupture(name):
+    """The numbers of the steps alone missed the last of them: the film is broken at its end."""
+    result = run(PULLS[name])
+    whole = result["film_status"] != ck.FilmStatus.BROKEN
+    path = np.column_stack([result.gap, result.speed])[whole].tolist()
+    dense = {one.name: one.value for one in result.plan.validity([tuple(pair) for pair in path])}
+    for one in result.validity:
+        if one.value is not None:
+            assert one.value == pytest.approx(dense[one.name], rel=2e-3), one.name
+    end = result.plan.film.end
+    slender = next(one for one in result.validity if one.name.startswith("slenderness"))
+    film = result.plan.prepared.film
+    assert slender.value == pytest.approx(film.radius(end) / film.height(end), rel=1e-4)

@@ -133,6 +133,22 @@ def test_holes_and_recesses_by_closed_form_and_by_the_grid():
         assert off == pytest.approx(middle, rel=4e-3)
 
 
+def test_a_relief_is_nearer_by_its_height():
+    """A map of one height; and a ramp, which is a tilt about the middle."""
+    flat = ck.Rectangle(length=4e-3, width=3e-3)
+    even = ck.Heights(heights=np.full((2, 2), 1e-6), pixel_size=1e-2)
+    raised = ck.plan(scene(ck.Flat(planform=flat, relief=even))).force(5e-6, 1e-3)
+    level = ck.plan(scene(ck.Flat(planform=flat))).force(4e-6, 1e-3)
+    assert raised == pytest.approx(level, rel=2e-3)
+    x = 1e-3 * (np.arange(5) - 2.0)
+    ramp = ck.Heights(heights=-5e-4 * x * np.ones((2, 1)), pixel_size=1e-3)
+    ramped = ck.plan(scene(ck.Flat(planform=flat, relief=ramp))).force(5e-6 + 1e-6, 1e-3)
+    tilted = ck.plan(scene(ck.Flat(planform=flat, tilt=(5e-4, 0.0)))).force(5e-6, 1e-3)
+    assert ramped == pytest.approx(tilted, rel=5e-3)
+    with pytest.raises(ck.DescriptionError, match="be Heights"):
+        ck.Flat(planform=flat, relief=ck.Sphere(radius=1.0))
+
+
 def test_a_massless_ring_is_released_sooner_as_its_damping_is_less():
     disc, ring = (
         ck.simulate(ck.plan(scene(face, SLOW))).state.release_time

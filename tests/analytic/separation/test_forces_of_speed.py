@@ -266,7 +266,7 @@ def test_a_word_that_the_force_does_not_keep_is_refused(brake, rate):
 @pytest.fixture
 def known():
     with ck.EFFECTS.including():
-        ck.register_effect(Brake)
+        ck.register(Brake)
         yield
 
 

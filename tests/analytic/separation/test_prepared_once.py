@@ -8,8 +8,8 @@ import pytest
 
 import contactkit as ck
 from contactkit.capillary import kelvin
-from contactkit.contact import grid as contact_grid
 from contactkit.roughness import height_maps
+from contactkit.scene import rough_surfaces
 from contactkit.separation import prescribed
 from contactkit.separation.film import Film
 
@@ -98,7 +98,7 @@ def test_a_map_is_read_once_in_a_plan_and_goes_with_its_scene(counted, tmp_path)
     again = ck.plan(attrs.evolve(scene, loading=ck.Pressing(pressure=2e7)))
     ck.solve(again)
     assert len(reads) == 1
-    assert len(contact_grid._MAPS) == 1
+    assert len(rough_surfaces._FILES) == 1
     del surface, upper, interface, scene, result, again
     gc.collect()
-    assert len(contact_grid._MAPS) == 0
+    assert len(rough_surfaces._FILES) == 0

@@ -90,7 +90,7 @@ def cycle_here(n):
 
     given = case("selfaffine", n, "periodic", 20)
     effects = (
-        ck.HardnessLimit(rule="constant", hardness=HARDNESS * MODULUS),
+        ck.HardnessLimit(rule=ck.ConstantHardness(hardness=HARDNESS * MODULUS)),
         ck.PlasticHistory(pressures=(given.load * MODULUS,), steps=4),
     )
     made = scene(given.heights, CYCLE[-1] * given.load, *effects)

@@ -30,7 +30,7 @@ def case_scene(name):
         mass=case["m"],
         final=case["h_rel"],
         stiffness=case["k_s"],
-        effects=(ck.MeniscusForce(profile="as-published", radius="disc"), ck.ViscousForce()),
+        effects=(ck.MeniscusForce(profile=ck.AsPublished(radius="disc")), ck.ViscousForce()),
     )
 
 

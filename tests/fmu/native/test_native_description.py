@@ -19,7 +19,7 @@ from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve
 from contactkit.errors import DescriptionError
 from contactkit.fmu.contents.end_stop import default_curve
 from contactkit.fmu.native import sources
-from contactkit.fmu.native.data import Contents, contents_of, data_file
+from contactkit.fmu.native.data import contents_of, data_file
 from contactkit.fmu.native.faces import faces_of
 from contactkit.fmu.native.film import moving, prepared_film
 from contactkit.fmu.native.models import MODELS, VARIABLES
@@ -103,11 +103,6 @@ def test_c_finds_each_number_by_its_name(model, contents, tmp_path):
     np.testing.assert_array_equal([float(word) for word in said], [float(v) for _, v in few])
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_records_come_back_as_they_were(model, contents):
-    assert Contents.of(contents[model].numbers()) == contents[model]
-
-
 def kernel_text():
     """What is written by hand of the kernel, but for its comments."""
     texts = (text.decode() for name, text in sources.kernel_sources(2).items() if name not in MADE)
@@ -186,9 +181,6 @@ def test_a_wrong_order_or_length_is_refused(way, contents, opened, tmp_path):
     assert opened(tmp_path, LAYOUT, numbers) == ""
     wrong = spoiled(way, numbers, contents)
     assert "makes no sense" in opened(tmp_path, LAYOUT, wrong)
-    if not way.startswith("of a"):  # a number of another model is in range
-        with pytest.raises(DescriptionError):
-            Contents.of(wrong)
 
 
 def test_a_file_of_another_description_is_refused(contents, opened, tmp_path):

@@ -91,7 +91,11 @@ def slope(function, gap, fraction=4e-4):
     return (45.0 * (f[3] - f[2]) - 9.0 * (f[4] - f[1]) + f[5] - f[0]) / (60.0 * fraction)
 
 
-@pytest.mark.parametrize("name", quick(SCENES, 0, 2, 4, 6, 8, 10, 12))
+# A table of a solved face has kinks of its curvature, which the finer one of the FMU keeps to 1e-7.
+SMOOTH = [name for name in SCENES if name != "tilted"]
+
+
+@pytest.mark.parametrize("name", quick(SMOOTH, 0, 2, 4, 6, 8, 10, 12))
 def test_forces_and_slopes_are_those_of_the_python_model(name, probe, tables, tmp_path):
     scene = moving(SCENES[name], None)
     film = plan(scene, FINE).film

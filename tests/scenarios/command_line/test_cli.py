@@ -205,7 +205,7 @@ SLIP = (
     ["tangential_force", "friction_work"],
 )
 HISTORY = (
-    'effect = "hardness-limit"\nrule = "constant"\nhardness = "1 GPa"\n'
+    'effect = "hardness-limit"\nrule = { kind = "constant", hardness = "1 GPa" }\n'
     '[[effects]]\neffect = "plastic-history"\nforces = [2.0]\nsteps = 3',
     '"effects.plastic-history.forces" = [[1.5], [2.0, 0.1]]',
     "force-approach.png",

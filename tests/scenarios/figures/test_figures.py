@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.contact.effects.registry import CONTACT_EFFECTS
+from contactkit.kinds import CONTACT_EFFECTS
 
 style = pytest.importorskip("contactkit.plot.style")
 
 STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=7.5e9)
-HARD = ck.HardnessLimit(rule="constant", hardness=2e9)
+HARD = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=2e9))
 OIL = ck.Liquid(name="oil", viscosity=0.01, surface_tension=0.03, density=870.0)
 # figures of effects: what else a scene lists for them
 OF_EFFECTS = {

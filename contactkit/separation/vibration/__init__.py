@@ -1,0 +1,8 @@
+"""Separation at an imposed speed with a vibration of the gap.
+
+run     Forces over the cycles, and their mean.
+path    Gap over time, and panels along a cycle.
+cycles  Impulses of each cycle, and their sum over a run of which some cycles are computed.
+curves  Curves over the cycles, computed when asked for.
+torn    Film that tears, over the cycles.
+"""
