@@ -17,6 +17,7 @@ from .integrator.radau import Forces
 
 __all__ = ["Film", "ForcesAt"]
 
+_STATIC, _VISCOUS = (Forces._fields.index(name) for name in ("static", "viscous"))
 _DIFFERENCE = 1e-7  # relative, of gap and speed, for the slopes of a force that a limit bounds
 
 
@@ -68,6 +69,8 @@ class Film:
     _proportional: tuple[ForceLaw, ...] = field(init=False, repr=False)
     _any: tuple[ForceLaw, ...] = field(init=False, repr=False)
     _bounded: ForceLaw | None = field(init=False, repr=False)
+    _moving: tuple[ForceLaw, ...] = field(init=False, repr=False)
+    _are_sums: tuple[int, ...] = field(init=False, repr=False)
 
     @kinks.default
     def _find_kinks(self) -> tuple[float, ...]:
@@ -120,6 +123,19 @@ class Film:
     @_bounded.default
     def _find_bounded(self) -> ForceLaw | None:
         return self.laws[self.limited] if self.limited is not None else None
+
+    @_moving.default
+    def _find_moving(self) -> tuple[ForceLaw, ...]:
+        bounded = () if self._bounded is None else (self._bounded,)
+        return (*self._proportional, *bounded, *self._any)
+
+    @_are_sums.default
+    def _find_sums(self) -> tuple[int, ...]:
+        """Places in `Forces` of the only force at rest and the only one of the speed; or none."""
+        rates = [law.rate for law in self.laws.values()]
+        if "any" in rates or len(set(rates)) < len(rates):
+            return ()
+        return tuple(_STATIC if rate == "none" else _VISCOUS for rate in rates)
 
     def _unbounded(self, rate: str) -> tuple[ForceLaw, ...]:
         pairs = self.laws.items()
@@ -242,12 +258,13 @@ class Film:
         What the sums say by themselves is not evaluated again; and a force with a memory is what
         the others leave of the sum.
         """
-        one_static, one_moving = len(self.static_columns) == 1, len(self.moving_columns) == 1
+        if self._are_sums:
+            return [forces[i] for i in self._are_sums]
         found = []
         for law in self.laws.values():
             if law.rate == "none":
-                value = forces.static if one_static else law.force(gap, 0.0)
-            elif one_moving and law.rate == "proportional":
+                value = forces.static if len(self.static_columns) == 1 else law.force(gap, 0.0)
+            elif law.rate == "proportional" and len(self.moving_columns) == 1:
                 value = forces.viscous
             elif law is self._bounded:
                 others = (*self._proportional, *self._any)
@@ -284,13 +301,13 @@ class Film:
     def damping(self, gap: float, speed: float = 1.0) -> float:
         """What a speed [m/s] adds to the forces without limits, over that speed [N.s/m]."""
         total = 0.0
-        for law in self._moving():
+        for law in self._moving:
             total += law.damping(gap, speed)
         return total
 
     def exponent(self, gap: float, speed: float = 1.0) -> float:
         """Exponent n of the damping at a speed [m/s], which falls as gap^-n; 0 without one."""
-        laws = self._moving()
+        laws = self._moving
         if len(laws) == 1:
             return laws[0].exponent_at(gap, speed)
         shares = [max(law.damping(gap, speed), 0.0) for law in laws]
@@ -300,10 +317,6 @@ class Film:
         each = (law.exponent_at(gap, speed) for law in laws)
         return sum(n * share for n, share in zip(each, shares, strict=True)) / total
 
-    def _moving(self) -> tuple[ForceLaw, ...]:
-        bounded = () if self._bounded is None else (self._bounded,)
-        return (*self._proportional, *bounded, *self._any)
-
     @property
     def has_viscous_impulse(self) -> bool:
         """Whether a force is proportional to speed, so that two gaps give its impulse."""
@@ -311,7 +324,7 @@ class Film:
 
     def viscous_impulse(self, start: float, end: float) -> float:
         """Impulse [N.s] between two gaps [m] of forces proportional to speed, without limits."""
-        laws = (law for law in self._moving() if law.rate == "proportional")
+        laws = (law for law in self._moving if law.rate == "proportional")
         return sum(law_impulse(law, start, end) for law in laws)
 
     def newtonian_impulse(self, start: float, end: float) -> float:

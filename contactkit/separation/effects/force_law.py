@@ -222,4 +222,4 @@ def settled(law: ForceLaw, gaps: Sequence[float]) -> ForceLaw:
     if law.rate != "any":
         return law
     rate = measured_rate(law, gaps)
-    return law if rate == "any" or rate == "linear" else evolve(law, rate=rate)
+    return law if rate == "linear" else evolve(law, rate=rate)
