@@ -72,7 +72,9 @@ class Place:
         alike += [m for m, one in self.words.items() if has(type(one)) and type(one) is type(value)]
         if alike:
             return alike[0].name
-        return self.nothing if self.words or isinstance(value, str) else value
+        if self.words:  # another choice, which the check of the value refuses by its name
+            return getattr(value, "kind", value)
+        return self.nothing if isinstance(value, str) else value
 
     def value_in_scene(self, value: Any) -> Any:
         """Value of the field for one of the parameter."""
