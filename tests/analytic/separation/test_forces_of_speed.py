@@ -16,9 +16,10 @@ from scipy.integrate import quad, solve_ivp
 
 import contactkit as ck
 from contactkit.fmu.native.film import moving, prepared_film
+from contactkit.kinds import SLIDING_EFFECTS
 from contactkit.scene.column import Column
 from contactkit.separation.effects.base import ForceLaw, SeparationForce
-from contactkit.separation.sliding.effects import SLIDING_EFFECTS, SlideLaw, SlidingForce
+from contactkit.separation.sliding.effects import SlideLaw, SlidingForce
 from contactkit.units import si
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
