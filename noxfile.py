@@ -6,7 +6,7 @@ from pathlib import Path
 import nox
 
 ROOT = Path(__file__).parent
-QUICK = ("tests/analytic", "tests/scenarios/command_line", "tests/properties")
+QUICK = ("tests/app", "tests/capillary", "tests/contact", "tests/elasticity", "tests/separation")
 OLDEST = (
     "attrs==24.2.0",  # of fmpy; without it 23.2.0 will do
     "cattrs==23.2.1",

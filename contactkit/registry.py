@@ -283,7 +283,7 @@ def _problem(kind: Any, attribute: str) -> str:
     if "__attrs_attrs__" not in vars(kind):
         return f"decorate {kind.__name__} with @attrs.frozen(kw_only=True)"
     if inspect.isabstract(kind):
-        return f"{kind.__name__} needs {', '.join(sorted(kind.__abstractmethods__))}"
+        return f"{kind.__name__} needs {', '.join(sorted(vars(kind)['__abstractmethods__']))}"
     declared = {
         name
         for one in kind.__mro__

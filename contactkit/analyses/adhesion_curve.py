@@ -41,6 +41,8 @@ class AdhesionCurve(Curve):
         (JKR, DMT).
     numbers : AdhesionNumbers
         Pull-off force, Tabor and Maugis parameters, and the gap at pull-off.
+    effect : AdhesiveContact
+        Model that was taken.
     """
 
     axis: ClassVar[str] = "load"
@@ -48,18 +50,19 @@ class AdhesionCurve(Curve):
         "radii": (("contact_radius", "cohesive_radius"), ""),
         "load": (("load",), "approach"),
     }
-    title: ClassVar[str] = "adhesive contact of a sphere"  # type: ignore[misc]
+    title: ClassVar[str] = "adhesive contact of a sphere"
 
     load: Floats = field(repr=False, metadata=si("N"))
     approach: Floats = field(repr=False, metadata=si("m"))
     contact_radius: Floats = field(repr=False, metadata=si("m"))
     cohesive_radius: Floats = field(repr=False, metadata=si("m"))
     numbers: AdhesionNumbers
+    effect: AdhesiveContact = field(repr=False)
 
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Curve.sources`."""
-        return AdhesiveContact(model=self.numbers.model).sources  # type: ignore[arg-type]
+        return self.effect.sources
 
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return forces and gap at pull-off."""
@@ -125,4 +128,4 @@ def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Floats) -> A
     columns = np.array(states, dtype=np.float64).reshape(-1, 4).T.copy()
     columns.flags.writeable = False
     load, approach, contact, cohesive = columns
-    return AdhesionCurve(load, approach, contact, cohesive, numbers)
+    return AdhesionCurve(load, approach, contact, cohesive, numbers, effect)

@@ -161,10 +161,11 @@ def _printed_radius(scene: SeparationScene) -> Callable[[Floats, Floats], Floats
         whole = volume * number
         if not is_printed or is_disc:
             return np.asarray(squeeze.disc_radius(whole, gap) / np.sqrt(number))
-        found = np.asarray(arc_flat.contact_radius(shape, gap, whole))
+        gaps = np.full_like(whole, gap)
+        found = arc_flat.contact_radius(shape, gaps, whole)
         if meniscus is not None and meniscus.printed.pulled == "upper":
-            found = np.asarray(arc_flat.upper_contact_radius(shape, gap, found))
-        return found / np.sqrt(number)
+            found = arc_flat.upper_contact_radius(shape, gaps, found)
+        return np.asarray(found / np.sqrt(number))
 
     return radius
 

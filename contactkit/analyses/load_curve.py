@@ -60,7 +60,7 @@ class LoadCurve(Curve):
         "pressure": (("max_pressure",), ""),
         "load": (("load",), "approach"),
     }
-    title: ClassVar[str] = "load curve"  # type: ignore[misc]
+    title: ClassVar[str] = "load curve"
 
     columns: Mapping[str, Floats] = field(repr=False)
     units: Mapping[str, str] = field(repr=False)

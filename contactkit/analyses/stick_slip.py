@@ -164,7 +164,7 @@ class StickSlip(Curve):
     """
 
     axis: ClassVar[str] = "point"
-    title: ClassVar[str] = "stick-slip"  # type: ignore[misc]
+    title: ClassVar[str] = "stick-slip"
 
     slider: SpringSlider
     time: Floats = field(repr=False, metadata=si("s"))

@@ -137,7 +137,7 @@ def _result_sections(result: AnyResult) -> list[str]:
     return [
         section("Result", numbers_table(f"{result.status}: {result.message}", result.scalars())),
         section("Validity", table(validity_rows(result.validity))),
-        section("Errata of what is taken as printed", bullets(map(str, result.errata))),
+        section("Errata of what is taken as printed", bullets([str(one) for one in result.errata])),
         section("Plan", result.plan._repr_html_()),
         section("Scene", result.plan.scene._repr_html_()),
         section("Sources", bullets(result.cite().splitlines())),

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from ..accuracy import Accuracy
 from ..errors import ValidityWarning
@@ -17,6 +17,8 @@ from ..scene.scenes import Scene
 from .study import draw_study, made_study, study_lines, study_text, write_study
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from ..studies.table import Study
 
 __all__ = ["cost_text", "draw_result", "run_scene"]
@@ -106,5 +108,5 @@ def draw_result(result: Result, out: Path) -> list[Path]:
         ax = draw()
         if title and not ax.get_title(loc="left"):
             style.title(ax, title)
-        files.append(style.save(ax.figure, out / name.replace("_", "-")))
+        files.append(style.save(cast("Figure", ax.figure), out / name.replace("_", "-")))
     return files

@@ -20,7 +20,7 @@ from ..analyses.pull_off import PullOffCurve, pull_off_curve
 from ..contact.effects.adhesion import Adhesion
 from ..contact.effects.attraction_laws import DugdaleAttraction
 from ..contact.effects.elasticity import HalfSpace, LayeredHalfSpace
-from ..contact.effects.partial_slip import PartialSlip, TangentialStep
+from ..contact.effects.partial_slip import PartialSlip
 from ..contact.effects.plastic_history import PlasticHistory
 from ..contact.effects.plasticity import HardnessLimit
 from ..contact.press import press
@@ -28,7 +28,7 @@ from ..contact.solve import solve_unwarned
 from ..planning import plan
 from ..reference import hertz, partial_slip
 from ..scene.interface import Body, Interface
-from ..scene.loading import Approach, Pressing
+from ..scene.loading import Approach, Pressing, TangentialStep
 from ..scene.materials import Layer, Material, RigidBase, Stack
 from ..scene.rough_surfaces import SelfAffineRoughness
 from ..scene.scenes import ContactScene

@@ -129,8 +129,8 @@ def _target(plan: ContactPlan, start: ContactResult | Sequence[ContactResult] | 
     target = Target(load, approach, None, near)
     if before and (attracted := _attracted(before[0])) is not None:
         pressure = before[0].pressure + attracted.tension
-        start = np.where(attracted.touching, pressure, 0.0)
-        return target._replace(start=start, unknowns={Tension.name: attracted.tension})
+        touching = np.where(attracted.touching, pressure, 0.0)
+        return target._replace(start=touching, unknowns={Tension.name: attracted.tension})
     known = [
         (one.mean_pressure if load is not None else one.rigid_approach, one.pressure)
         for one in before

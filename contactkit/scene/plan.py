@@ -17,6 +17,9 @@ __all__ = ["ScenePlan", "check_accuracy", "check_plan", "check_scene"]
 
 class _Scene(Protocol):
     @property
+    def name(self) -> str: ...
+
+    @property
     def effects(self) -> tuple[Effect, ...]: ...
 
     @property

@@ -74,7 +74,8 @@ class Grid(NamedTuple):
         import numpy as np
 
         y, x = (
-            (np.arange(n) - n // 2) * d for n, d in zip(self.shape, self.pixel_size, strict=True)
+            np.asarray((np.arange(n) - n // 2) * d, dtype=np.float64)
+            for n, d in zip(self.shape, self.pixel_size, strict=True)
         )
         return y[:, None], x[None, :]
 

@@ -315,7 +315,7 @@ def impulses_of_gaps(plan: Plan) -> dict[str, float]:
 
     Without the limits of the liquid; of a force that they may bound under both its names.
     """
-    loading, found = plan.scene.loading, {}
+    loading, found = plan.scene.loading, dict[str, float]()
     for kind, law in plan.film.laws.items():
         if law.rate == "proportional":
             last = min(loading.final_gap, _end(plan, kind))

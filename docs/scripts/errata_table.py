@@ -11,8 +11,8 @@ from contactkit.as_published.lookup import PUBLISHED, published
 from contactkit.as_published.printed.errata import ERRATA
 from contactkit.gallery.chapter_3.table_4_1 import FLATS, SPHERE
 
-VALUES = "tests/analytic/as_published/test_published_values.py"
-FORMULAS = "tests/analytic/as_published/test_published_formulas.py"
+VALUES = "tests/as_published/test_published_values.py"
+FORMULAS = "tests/as_published/test_published_formulas.py"
 OTHERS: Mapping[str, float] = {  # arguments that Table 4.1 does not need
     "kelvin_radius": 2e-9,
     "molar_volume": 1.8e-5,
@@ -70,16 +70,16 @@ CHECKS: Mapping[str, str] = {
     "3.34": _page("table-4-1", "viscous forces between flats are twice those"),
     "3.35": _page("figure-3-15", "the rise is far below the root of N of Eq. (3.35)"),
     "3.37": f"`{VALUES}::test_what_differs_has_an_erratum_and_what_has_none_agrees`",
-    "3.39": "`tests/hard/test_arc_hard.py::test_repelled_pair_turns_from_push_to_pull`",
-    "3.40": "`tests/analytic/capillary/test_arc_values.py"
+    "3.39": "`tests/capillary/test_arc_hard.py::test_repelled_pair_turns_from_push_to_pull`",
+    "3.40": "`tests/capillary/test_arc_values.py"
     "::test_volume_is_that_of_the_circle_turned_about_the_axis`",
-    "3.41": "`tests/properties/test_arc_properties.py"
+    "3.41": "`tests/capillary/test_arc_properties.py"
     "::test_contact_radius_is_continuous_where_the_arc_is_straight`",
     "zero neck": _page("section-3-2-3", "the exact bridge breaks at less than a third of them"),
     "3.42": _page("figure-3-09", "Eq. (3.42) does not make the heights one curve"),
     "3.43": f"`{FORMULAS}::test_dimensionless_3_42_and_3_43`",
     "3.44": f"`{VALUES}::test_every_equation_answers`",
-    "3.51": "`tests/analytic/lubrication/test_sliding.py::test_the_overlap_is_what_a_grid_counts`",
+    "3.51": "`tests/lubrication/test_sliding.py::test_the_overlap_is_what_a_grid_counts`",
     "3.53": _page("figure-3-18", "the force at the start is 3 pi/4 times that"),
     "3.55": f"`{VALUES}::test_what_differs_has_an_erratum_and_what_has_none_agrees`",
     "3.56": _page("figure-3-18", "Eq. (3.56) is too low for a sphere"),

@@ -200,10 +200,14 @@ def _laws(common: _Common, effect: SeparationForce, law: ForceLaw) -> list[Law]:
             release=law.release,
             recontact=law.recontact,
             kinks=tuple(map(float, law.kinks)),
-            table=_law_table(common, effect, law, rate, lambda gap, of=part: of(gap) / unit),
+            table=_law_table(common, effect, law, rate, _over(part, unit)),
         )
         for rate, part in _parts(common, effect, law).items()
     ]
+
+
+def _over(part: Callable[[float], float], unit: float) -> Callable[[float], float]:
+    return lambda gap: part(gap) / unit
 
 
 def _parts(

@@ -86,7 +86,7 @@ def travel(
     first = film.static_force(begin) if first is None else first
     last = first if end == begin else film.static_force(end)
     static = length * _static_mean(film, begin, end, first, last)
-    if film.cavity is None:
+    if not isinstance(film.cavity, CavityLaw):  # others are refused when an FMU is built
         return Travel(_viscous(film, begin, end, length), static, fraction, last)
     viscous, cavity, changed = _with_memory(film.cavity, film, cavity, begin, end, length)
     return Travel(viscous, static, fraction, last, cavity, fraction * changed / length)

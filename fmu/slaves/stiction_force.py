@@ -18,6 +18,7 @@ from attrs import evolve
 
 from ...accuracy import Accuracy
 from ...separation.cavity.events import born, is_torn_by
+from ...separation.cavity.law import CavityLaw
 from ...separation.cavity.stages import Spot, force_at
 from ...separation.cavity.state import FULL, Cavity, Phase, restored_cavity
 from ...separation.effects.base import FilmStatus, LimitKind
@@ -259,9 +260,11 @@ class StictionForce(PortSlave):
         """Forces with a cavity whose edge and rim stay, and the radius of the edge [m], or 0."""
         found, law, before = film.forces(gap, speed), film.cavity, self.memory.gap
         cavity = self.memory.cavity
-        if law is not None and is_torn_by(law, cavity, gap, speed):
+        if not isinstance(law, CavityLaw):  # others are refused when an FMU is built
+            return found, 0.0
+        if is_torn_by(law, cavity, gap, speed):
             cavity, before = born(law, gap, speed), gap
-        if law is None or cavity.phase is Phase.FULL:
+        if cavity.phase is Phase.FULL:
             return found, 0.0
         rim, _ = law.rim(before, cavity.void)
         edge = cavity.fraction * rim

@@ -548,3 +548,18 @@ def test_there_are_examples_to_hold():
         for example in test.examples
     ]
     assert len(examples) > 100
+
+
+# Beside the rooms of the package: top-level folders, and what holds for the repository as a whole.
+NO_ROOMS = {"benchmarks", "data", "demand_pages", "docs", "fmu", "fuzz", "gallery", "models"}
+NO_ROOMS |= {"references", "rules"}
+
+
+def test_tests_lie_in_the_room_of_what_they_test():
+    rooms = {path.parent.name for path in (ROOT / "contactkit").glob("*/__init__.py")}
+    folders = {
+        path.relative_to(ROOT / "tests").parts[0]
+        for path in committed_files()
+        if path.is_relative_to(ROOT / "tests") and path.parent != ROOT / "tests"
+    }
+    assert folders - rooms - NO_ROOMS == set()

@@ -119,12 +119,11 @@ class Step:
         """
         law, n_before = self.plan.hardness, self.counter.n_solves
         if isinstance(law, VaryingHardness) and not law.is_local:
-            settled, hardness = settle_hardness(self.plan, law, target, self._settled)
-        else:
-            fixed = law.value if isinstance(law, FixedHardness) else None
-            settled = self._settled(target, fixed)
-            hardness = settled.contact.held.bound
-        return self._seen(settled, hardness, self.counter.n_solves - n_before)
+            settled, bound = settle_hardness(self.plan, law, target, self._settled)
+            return self._seen(settled, bound, self.counter.n_solves - n_before)
+        fixed = law.value if isinstance(law, FixedHardness) else None
+        settled = self._settled(target, fixed)
+        return self._seen(settled, settled.contact.held.bound, self.counter.n_solves - n_before)
 
     def finished(self, solved: Solved, target: Target) -> Solved:
         """Compare the contact with the one without tractions, if any displace its surfaces."""

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
 from ...analyses.subsurface import MeasureName
 from ...contact.plan import ContactPlan
 from ...contact.result import ContactResult
@@ -41,7 +43,7 @@ class ContactFigures(Figures[ContactResult]):
         own = {one.name for kind in kinds for one in kind.arrays if one.unit != "-"}
         known = result.contents().quantities
         shown = sorted(
-            name for name in own & set(maps.map_names(result)) if known[name].values.any()
+            name for name in own & set(maps.map_names(result)) if np.any(known[name].values)
         )
         return super().pictures() | {name: partial(self.map, name) for name in shown}
 

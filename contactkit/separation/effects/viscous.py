@@ -24,7 +24,7 @@ from .base import CAVITY, FilmLimit, ForcePart, Limiter, LimitKind, SeparationFo
 from .constant_force import constant_force_time
 from .film_shape import FilmShape, film_shape, needs_extent
 from .film_validity import film_numbers
-from .force_law import ForceLaw
+from .force_law import ForceLaw, law_impulse
 from .meniscus import MeniscusForce
 from .published_film import published_film
 
@@ -613,7 +613,8 @@ def _erratum(plan: PlanView) -> PublishedValue:
     right, by = made.value, "as printed, right for a flooded film"
     if math.isfinite(prepared.film.volume):
         law = _law_of(prepared.film, prepared.liquid.viscosity)
-        right, by = law.impulse(start, given["gap_end"]), "film of constant volume, upright rim"
+        right = law_impulse(law, start, given["gap_end"])
+        by = "film of constant volume, upright rim"
     name = f"{ViscousForce.name}, {made.name}, times the separation time"
     return made._replace(name=name, unit="N.s", corrected=right, corrected_by=by)
 

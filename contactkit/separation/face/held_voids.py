@@ -119,7 +119,8 @@ class HeldVoids:
                 self._held,
             )
         else:
-            grown = self._opening and self._opening.beyond(gap, speed, self._full)
+            opening = self._opening
+            grown = None if opening is None else opening.beyond(gap, speed, self._full)
             if grown is not None:
                 return grown
             force, area = self._solution(gap, speed)

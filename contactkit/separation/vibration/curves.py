@@ -111,7 +111,7 @@ class CycleCurves:
         parts = 0.5 * (force[1:] + force[:-1]) * np.diff(times)
         found = np.concatenate([[0.0], np.cumsum(parts)])
         missing = running - found[np.searchsorted(times, edges)]
-        return found + np.interp(times, edges, missing)
+        return np.asarray(found + np.interp(times, edges, missing))
 
     def _row(
         self, names: Sequence[str], time: float, film: TornPoint | None, calm: TornPoint | None

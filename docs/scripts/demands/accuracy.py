@@ -13,20 +13,20 @@ __all__ = ["ANALYSES", "NAME", "draw", "measure", "page"]
 NAME = "accuracy-and-cost"
 DEVICES = ("fuel-injector", "micromirror", "bridges")
 ANALYSES: Mapping[str, tuple[str, str]] = {
-    "adhesion_curve": ("roots to 1e-13", "tests/analytic/adhesion/test_adhesion_values.py"),
-    "critical_meniscus": ("a root to round-off", "tests/analytic/capillary/test_division.py"),
-    "divide_meniscus": ("closed forms", "tests/analytic/capillary/test_division.py"),
-    "divide_sliding": ("a scene, exact", "tests/scenarios/test_sliding_scenes.py"),
-    "humidity_curve": ("bridges to 1e-12", "tests/analytic/capillary/test_humidity.py"),
+    "adhesion_curve": ("roots to 1e-13", "tests/adhesion/test_adhesion_values.py"),
+    "critical_meniscus": ("a root to round-off", "tests/capillary/test_division.py"),
+    "divide_meniscus": ("closed forms", "tests/capillary/test_division.py"),
+    "divide_sliding": ("a scene, exact", "tests/separation/sliding/test_sliding_scenes.py"),
+    "humidity_curve": ("bridges to 1e-12", "tests/capillary/test_humidity.py"),
     "load_displacement": (
         "solves of `load_curve`, with a monotone interpolation whose error it reports",
-        "tests/analytic/contact/test_plastic_history.py",
+        "tests/contact/effects/test_plastic_history.py",
     ),
     "stream_study": (
         "points of `study`, one by one",
-        "tests/scenarios/studies/test_study_stream.py",
+        "tests/studies/test_study_stream.py",
     ),
-    "stick_slip": ("closed forms of each phase", "tests/analytic/contact/test_stick_slip.py"),
+    "stick_slip": ("closed forms of each phase", "tests/contact/slip/test_stick_slip.py"),
 }
 """Public functions on scenes and plans without a tolerance of their own."""
 _PEERS = ("aspher", "SlipPY", "tamaas", "ContactMechanics")

@@ -36,7 +36,7 @@ __all__ = ["CLOSURES", "FLOOR", "bridge_cost", "force_points", "rupture_points"]
 Progress = Callable[[float], None]
 
 CLOSURES = ("exact", "arc", "as published")
-FLOOR = 1e-12  # against 50 digits: tests/analytic/capillary/test_elliptic_bridge.py
+FLOOR = 1e-12  # against 50 digits: tests/capillary/test_elliptic_bridge.py
 _JUDGED = 9  # gaps at which the reference is asked
 
 
