@@ -27,7 +27,7 @@ _STEP = 1e-7
 _LEAST = 1e-12
 _NEARER = 0.99  # ratio of gaps between which an exponent is measured
 _STEEPEST = 8.0  # exponent that is taken for a damping at most, as in the tables of native FMUs
-_PANEL = 0.25  # in ln h: six nodes integrate powers up to h^-8 to rounding
+_PANEL = 0.25  # in ln h: six nodes integrate powers up to h^-8 to round-off
 _TOUCH = 1e-12  # of the upper gap; an impulse from a touch begins there
 _SPEEDS = (1e-6, 1e-3, 1.0)  # [m/s], of either sign
 _SAME = 1e-9  # of a force, up to which it counts as linear in the speed
@@ -139,14 +139,14 @@ class ForceLaw:
         return LawAt(static, static_by_gap, value - static, by_gap - static_by_gap, by_speed)
 
     def viscous_force(self, gap: float, speed: float) -> float:
-        """What the speed adds to the force [N]."""
+        """Part of the force that depends on the speed, F(h, v) - F(h, 0) [N]."""
         if self.rate == "none" or not speed:
             return 0.0
         value = self.force(gap, speed)
         return value if self.rate == "proportional" else value - self.force(gap, 0.0)
 
     def damping(self, gap: float, speed: float) -> float:
-        """What the speed adds to the force, over a speed [m/s] that is not 0 [N.s/m]."""
+        """Secant damping at a speed [m/s] that is not 0: (F(h, v) - F(h, 0))/v [N.s/m]."""
         if self.rate == "proportional":
             return self.force(gap, 1.0)
         return self.viscous_force(gap, speed) / speed
@@ -191,7 +191,7 @@ def law_impulse(law: ForceLaw, start: float, end: float) -> float:
 
 
 def measured_rate(law: ForceLaw, gaps: Sequence[float]) -> Literal[Rate, "linear"]:
-    """How a force depends on the speed, from its values at some gaps [m] and six speeds.
+    """Rate dependence of a force, from its values at some gaps [m] and six speeds.
 
     ``"linear"`` is F(h, 0) + c(h) v, to 1e-9 of what the speed adds.
 
