@@ -17,8 +17,6 @@ from ..scene.scenes import Scene
 from .study import draw_study, made_study, study_lines, study_text, write_study
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from ..studies.table import Study
 
 __all__ = ["cost_text", "draw_result", "run_scene"]
@@ -108,5 +106,5 @@ def draw_result(result: Result, out: Path) -> list[Path]:
         ax = draw()
         if title and not ax.get_title(loc="left"):
             style.title(ax, title)
-        files.append(style.save(cast("Figure", ax.figure), out / name.replace("_", "-")))
+        files.append(style.save(cast(Any, ax.figure), out / name.replace("_", "-")))
     return files

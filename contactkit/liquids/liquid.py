@@ -166,6 +166,7 @@ class Liquid(Described):
 
     Examples
     --------
+    >>> from contactkit.liquids.viscosity import WaltherViscosity
     >>> from contactkit.units import celsius, cSt
     >>> oil = Liquid(
     ...     name="mineral oil",

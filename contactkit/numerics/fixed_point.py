@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["Accelerator", "Anderson", "Evaluation", "FixedPoint", "Momentum", "Plain", "settle"]
 
 # Measured over 16 contacts with hardness, coupling of friction and adhesion (1,824 applications of
-# the operator in 213 contacts); each number varied by a factor of three each way.
+# the operator in 213 contacts); where a count is given, the number was varied. The other four are
+# guards.
 #
 # Of the change of the unknown, the change that the error of the next evaluation may cause. Tighter
 # solves digits that change again (0.03: 7 % more applications, 2 % fewer contacts); looser lets
@@ -29,17 +30,23 @@ _INNER = 0.1
 # A map may enlarge the errors of its evaluation, as stiff films do: then the change swings instead
 # of falling. After `_PATIENCE` evaluations without a smaller change the ratio falls by `_TIGHTER`.
 # Two tighten too early (Dugdale's law 14 % more); fifteen change nothing but the hardest films.
+_PATIENCE = 5
+# The factor by which the ratio falls guards against a map that would take many such falls, and the
+# least ratio against solves ever tighter of a map that does not contract at all.
 _TIGHTER = 0.3
 _LEAST_INNER = 1e-3
-_PATIENCE = 5
-# Contraction expected of the first step, and relied on at most: it decides when an evaluation is
-# made exact in the hope that it is the last. Neither changes a count.
+# Contraction expected of the first step: it decides when an evaluation is made exact in the hope
+# that it is the last. It changes no count.
 _CONTRACTION = 0.1
+# Contraction relied on at most: it guards against an exact evaluation far from the end, after two
+# changes of which the second happened to be small.
 _FASTEST = 1e-3
-# Part of the error that an iteration removes: at least, and estimates of which the smallest counts.
-# They guard the stated error of slow iterations, next to jumps, and change no count elsewhere.
-_SLOWEST = 1e-3
+# Estimates, of which the smallest counts, of the part of the error that an iteration removes: they
+# guard the stated error of slow iterations, next to jumps.
 _MEMORY = 5
+# Smallest of those that counts: it guards against a tolerance of nothing, which no change meets,
+# where an image runs ahead of its unknown.
+_SLOWEST = 1e-3
 
 
 class Evaluation(NamedTuple):
@@ -242,11 +249,16 @@ def settle(
     for n in range(1, max_iterations + 1):
         found = evaluate(values, 0.0 if n == max_iterations else allowed)
         change = max(found.changes, default=0.0)
-        slowest = rate.after(values, found.images, found.scales)
+        # What agrees has no direction to learn from, and its scale may be that of nothing at all.
+        is_same = change == 0.0
+        slowest = 1.0 if is_same else rate.after(values, found.images, found.scales)
         is_settled = change <= max(tolerance * slowest, min(found.floor, tolerance))
         if found.is_failed or (is_settled and found.is_exact) or n == max_iterations:
             return FixedPoint(values, found.changes, is_settled and not found.is_failed, n)
         allowed = 0.0 if is_settled else forcing.allowed(change, tolerance * slowest)
+        if is_same:
+            values = found.images
+            continue
         taken: Blocks = ()
         for where, accelerator in accelerators:
             taken += accelerator.next(values[where], found.images[where], found.scales[where])

@@ -1,4 +1,4 @@
-"""How near a bridge is to its end: what lines follow so that they follow its shape."""
+"""Distance of a bridge to its end, a coordinate in which its shape is smooth."""
 
 from __future__ import annotations
 

@@ -186,7 +186,7 @@ class Film:
         }
 
     def viscous_force(self, gap: float, speed: float) -> tuple[float, LimitKind]:
-        """Part of the forces of the speed [N], after the limits, and the limit that acts."""
+        """Viscous part of the forces [N], after the limits, and the limit that acts."""
         total, limit = self.limited_force(gap, speed)
         for law in (*self._proportional, *self._any):
             total += law.viscous_force(gap, speed)
@@ -299,7 +299,7 @@ class Film:
         return self.viscous_force(gap, speed)[0] + self.static_force(gap)
 
     def damping(self, gap: float, speed: float = 1.0) -> float:
-        """Secant damping at a speed [m/s] without limits: (F(h, v) - F(h, 0))/v [N.s/m]."""
+        """Damping [N.s/m]: the viscous part of the forces without limits over a speed [m/s]."""
         total = 0.0
         for law in self._moving:
             total += law.damping(gap, speed)

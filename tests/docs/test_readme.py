@@ -25,8 +25,8 @@ def blocks(page, language):
 
 
 def with_blocks(language):
-    """Pages with blocks of a language; what takes long is on the pages about FMUs."""
-    slow = {page for page in PAGES if "fmu" in page.name or page.name == "hosts.md"}
+    """Pages with blocks of a language; those about FMUs and curves of adhesion take long."""
+    slow = {page for page in PAGES if "fmu" in page.name or page.stem in ("adhesion", "hosts")}
     return [
         pytest.param(
             p, id=p.relative_to(ROOT).as_posix(), marks=[pytest.mark.slow] if p in slow else []

@@ -110,6 +110,7 @@ def test_the_disk_presses_as_it_did():
     assert 8e9 < run.of(ck.HardnessLimit).hardness < 15e9
 
 
+@pytest.mark.slow
 def test_a_scene_runs_into_numbers_files_and_figures(scene_file, tmp_path, capsys):
     out = tmp_path / "out"
     assert main(["run", str(scene_file), "--out", str(out)]) == 0

@@ -159,6 +159,21 @@ def test_accelerated_blocks_are_moved_to_where_the_map_is_defined():
     assert math.cos(3.0 * x) ** 2 == pytest.approx(x, abs=1e-11)
 
 
+def test_blocks_that_fall_to_nothing_settle_though_their_scale_does_too():
+    """As displacements do when the contact under them opens."""
+    tiny = float(np.finfo(float).tiny)
+
+    def evaluate(blocks, allowed):
+        change = float(np.abs(blocks[0]).max()) / 1e-30
+        scale = 1e-30 if change > 0.0 else tiny
+        return Evaluation((np.zeros(3),), (change,), (scale,), is_exact=allowed == 0.0)
+
+    with np.errstate(all="raise"):
+        found = settle(evaluate, (np.full(3, 1e-10),), ((ALL, Anderson()),), 1e-6)
+    assert found.is_settled
+    assert not found.values[0].any()
+
+
 def test_what_does_not_settle_or_fails_says_so():
     away = linear(np.diag([-3.0]), np.ones(1))
     found = settle(away, (np.zeros(1),), ((ALL, Plain()),), 1e-9, max_iterations=7)

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from contactkit.kinds import KINDS
+
 ROOT = Path(__file__).parents[2]
 DOTTED = re.compile(r"(?<![\w./@-])contactkit(?:\.[A-Za-z_]\w*)+(?!\.?\w)")
 PATH = re.compile(r"(?<![\w./<>:*{}-])(?:[a-z_0-9]+/)+[a-z_0-9]+\.(?:py|c|h|toml)\b")
@@ -21,9 +23,12 @@ PACKAGES = {
     "models/": "contactkit.models",
     "examples/gallery/": "contactkit.gallery",
 }
+# Groups of entry points.
+GROUPS = {one.group.rpartition(".")[2] for one in KINDS._registries() if one.group}
 NO_MODULE = re.compile(
     r"contactkit\.(json|toml"  # files of a user
-    r"|tips|pull)$"  # kinds of terminals of an FMU
+    r"|tips|pull"  # kinds of terminals of an FMU
+    rf"|{'|'.join(sorted(GROUPS))})$"
 )
 
 

@@ -159,6 +159,7 @@ MADE = {
     "co-simulation": cosimulation,
     "work-precision": lambda: sweep([Setting("a", "b", outcome)], 1.0, quantity="x", floor=0.1),
     "scene": lambda: rough(ck.HardnessLimit()),
+    "planform": lambda: ck.equilateral_triangle(1e-3),
     "frozen mapping": lambda: FrozenDict(a=FrozenDict(b=1)),
 }
 

@@ -22,6 +22,8 @@ HYSTERESIS = ck.ContactAngleHysteresis(advancing_lower=1.0, receding_lower=0.8)
 LENS = {"lubrication.couette_flat.lens_*"}
 EVEN = {"lubrication.couette_flat.flat_impulse", *LENS}
 LOCAL = {"lubrication.couette_sphere.*"}
+ARC = {"capillary.arc.flat.*", "capillary.arc.shape.*"}
+ARC_UNDER_SPHERE = {f"capillary.arc.{part}.*" for part in ("contact_circles", "shape", "sphere")}
 # What each effect may call, by the body above the flat.
 OWNED = {
     ck.CouetteForce(): {"flats": EVEN, "sphere": LOCAL},
@@ -29,7 +31,10 @@ OWNED = {
         "flats": EVEN,
         "sphere": LOCAL | {"lubrication.couette_reynolds.*"},
     },
-    ck.CouetteForce(closure="as-published"): {"flats": EVEN, "sphere": EVEN | LOCAL},
+    ck.CouetteForce(closure="as-published"): {
+        "flats": EVEN | ARC,
+        "sphere": EVEN | LOCAL | ARC_UNDER_SPHERE,
+    },
     HYSTERESIS: {body: LENS | {"lubrication.couette_flat.hysteresis_force"} for body in BODIES},
     SHEAR: {body: {"lubrication.couette_flat.limited_stress"} for body in BODIES},
 }

@@ -52,6 +52,7 @@ def test_a_disc_is_pulled_apart_as_its_edge_says(name, error):
     assert found.cavity.void == pytest.approx(values["void_volume_end"], rel=5.0 * error)
 
 
+@pytest.mark.slow
 def test_two_pressures_release_nearly_as_a_dry_face():
     limit = ck.TensionLimit(strength=1e6, cavity_pressure=AMBIENT - 1e5)
     result = ck.simulate(ck.plan(scene(NOTCHED, limit), ROUGHLY))
@@ -103,25 +104,37 @@ def motion(face, pulls, step, accuracy=ROUGHLY):
     return np.array(found), state
 
 
+@pytest.mark.slow
 def test_what_has_cavitated_is_remembered_until_liquid_is_back():
     """Pulled, pushed back and pulled again, as the round cavity of the same liquid."""
-    pulls = [40.0] * 8 + [-40.0] * 12
+    pulls = [40.0] * 4 + [-40.0] * 4
     (disc, _), (notched, state) = (motion(face, pulls, 2e-5) for face in (DISC, NOTCHED))
-    assert disc[:, 2].max() > 0.3 * math.pi * R**2 * 5e-6
+    assert disc[:, 2].max() > 0.25 * math.pi * R**2 * 5e-6
+    assert disc[-1, 2] == 0.0  # full again
     assert notched[:, 0] == pytest.approx(disc[:, 0], rel=2e-2)
     assert notched[:, 2] == pytest.approx(disc[:, 2], abs=0.03 * disc[:, 2].max())
     saved = [*state.cavity]
     assert restored_cavity(saved) == state.cavity
 
 
-def test_a_tilted_face_cavitates_off_its_middle_and_pulls_less_than_its_area():
+def test_a_tilted_face_cavitates_where_it_is_thin_and_pulls_less_than_its_area():
     tilted = ck.Flat(planform=ck.Rectangle(length=4e-3, width=3e-3), tilt=(5e-4, 0.0))
-    made = ck.plan(scene(tilted, one_pressure(1e6)), ROUGHLY)
-    state = advance(made, start(made), Pull(20.0), 2e-5)
-    assert state.cavity.phase is not Phase.FULL
-    assert 0.0 < outputs(made, state, 20.0).viscous < 1e6 * 12e-6
+    made = ck.plan(scene(tilted, one_pressure(1e6)), attrs.evolve(ROUGHLY, film_rtol=5e-2))
     grid = made.film.cavity.grid
-    void = grid.relief + state.gap - np.array(state.cavity.liquid)
-    void[~grid.face.loaded] = 0.0
-    about_x = float((void * grid.face.x).sum() / void.sum())
-    assert about_x < -5e-4  # where it is thinnest
+
+    def cavity(pull, time):
+        """Its middle along x [m] and the viscous force [N]."""
+        state = advance(made, start(made), Pull(pull), time)
+        assert state.cavity.phase is not Phase.FULL
+        void = grid.relief + state.gap - np.array(state.cavity.liquid)
+        void[~grid.face.loaded] = 0.0
+        middle = float((void * grid.face.x).sum() / void.sum())
+        return middle, outputs(made, state, pull).viscous
+
+    # Where it begins: of an endless strip at h = 2 h1 h2/(h1 + h2), a third of a millimetre from
+    # the middle; a rectangle lets liquid in at its ends, too, and most where it is open.
+    begun, _ = cavity(6.0, 2e-5)
+    assert -6e-4 < begun < -1e-3 / 3.0
+    grown, force = cavity(20.0, 1e-6)
+    assert begun < grown < -2e-4
+    assert 6.0 < force < 1e6 * 12e-6

@@ -63,7 +63,7 @@ STICKY = ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=1e9)
 FIELDS = [
     (ck.Flat(), "radius", "m", POSITIVE, [0.0, -1e-3]),
     (ck.Flat(radius=1.0), "tilt", "rad", "be a pair of slopes (x, y)", [1e-3, None]),
-    (ck.Flat(radius=1.0), "crown_radius", "m", "not be zero", [0.0]),
+    (ck.Flat(radius=1.0), "crown_radius", "m", FINITE, []),
     (ck.Sphere(radius=1.0), "radius", "m", POSITIVE, [0.0, -1e-3, None]),
     (FILM, "volume", "m3", POSITIVE, [0.0, -1e-12]),
     (MOIST, "pressure", "Pa", "be negative and finite", [0.0, 1e5]),
@@ -116,6 +116,13 @@ FIELDS = [
 
 def test_an_impossible_number_is_named_with_its_field_and_unit():
     assert misfits(FIELDS) == {}
+
+
+def test_an_even_face_has_no_crown_rather_than_one_of_no_radius():
+    refuses(
+        lambda: ck.Flat(radius=1.0, crown_radius=0.0),
+        "Flat.crown_radius must not be zero [m], got 0.0; leave it out for an even face",
+    )
 
 
 # Settings of a contact are in test_contact_errors.

@@ -75,7 +75,9 @@ class TractionDisplacement(Unknown):
 def displacement_scale(contact: HeldContact, self_influence: float) -> float:
     """Displacement [m] that others are small against.
 
-    Its range, or where that is round-off, as of flat surfaces, that of a pixel on its own.
+    Its range, or where that is round-off, as of flat surfaces, that of a pixel on its own; without
+    pressure, as after unloading, the round-off of the distance between the surfaces.
     """
     own = float(contact.solution.pressure.max()) * self_influence
-    return max(float(np.ptp(contact.solution.displacement)), own, np.finfo(float).tiny)
+    least = np.finfo(float).eps * float(np.abs(contact.distance).max())
+    return max(float(np.ptp(contact.solution.displacement)), own, least, np.finfo(float).tiny)

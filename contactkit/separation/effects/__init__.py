@@ -1,7 +1,7 @@
 """Effects of a separation: forces between the bodies, limits of the liquid, ends of the film.
 
 base             Roles of an effect in the equation of motion: force, limit, end of the film.
-force_law        Prepared law of a force: value over gap and speed, slopes, range.
+force_law        Prepared law of a force: F(h, v), its slopes and its range.
 prepared         Scene with its liquid at temperature and the shape of its film.
 film_shape       Shape of the film with an upright rim: radius and height over the gap.
 published_film   Film of the printed viscous forces: radius and height of the printed arc.

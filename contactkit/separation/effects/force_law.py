@@ -139,14 +139,14 @@ class ForceLaw:
         return LawAt(static, static_by_gap, value - static, by_gap - static_by_gap, by_speed)
 
     def viscous_force(self, gap: float, speed: float) -> float:
-        """Part of the force that depends on the speed, F(h, v) - F(h, 0) [N]."""
+        """Viscous part of the force [N]: F(h, v) - F(h, 0)."""
         if self.rate == "none" or not speed:
             return 0.0
         value = self.force(gap, speed)
         return value if self.rate == "proportional" else value - self.force(gap, 0.0)
 
     def damping(self, gap: float, speed: float) -> float:
-        """Secant damping at a speed [m/s] that is not 0: (F(h, v) - F(h, 0))/v [N.s/m]."""
+        """Damping [N.s/m]: the viscous part over a speed [m/s] that is not 0."""
         if self.rate == "proportional":
             return self.force(gap, 1.0)
         return self.viscous_force(gap, speed) / speed
@@ -191,7 +191,7 @@ def law_impulse(law: ForceLaw, start: float, end: float) -> float:
 
 
 def measured_rate(law: ForceLaw, gaps: Sequence[float]) -> Literal[Rate, "linear"]:
-    """Rate dependence of a force, from its values at some gaps [m] and six speeds.
+    """Dependence of a force on the speed, from its values at some gaps [m] and six speeds.
 
     ``"linear"`` is F(h, 0) + c(h) v, to 1e-9 of what the speed adds.
 

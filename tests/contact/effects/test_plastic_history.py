@@ -285,6 +285,31 @@ def test_what_a_window_that_repeats_along_one_axis_leaves_is_pressed_in_it():
     assert ck.solve(ck.plan(again)).rigid_approach == pytest.approx(result.rigid_approach, rel=1e-7)
 
 
+@pytest.mark.parametrize("rms", [0.0, 1e-9])
+def test_a_contact_with_coupled_friction_opens_again(rms):
+    """The displacement by friction has to fall to nothing, and so does what it is small against."""
+    heights = rms * np.random.default_rng(0).normal(size=(16, 12))
+    hard = ck.Material(young_modulus=3e9, poisson_ratio=0.2, hardness=1e8)
+    result = ck.solve(
+        ck.plan(
+            scene(
+                ck.Heights(heights=heights, pixel_size=2e-8),
+                ck.Pressing(pressure=0.0),
+                MATERIAL,
+                ck.PlasticHistory(pressures=(2e6,), steps=2),
+                ck.FrictionTraction(coefficient=0.5),
+                ck.FrictionCoupling(),
+                solid=ck.Stack(layers=(ck.Layer(material=hard, thickness=5e-9),), substrate=SOFT),
+                periodic=False,
+            )
+        )
+    )
+    assert result.status == "no contact"
+    assert not result.pressure.any()
+    part = result.of(ck.PlasticHistory)
+    assert part.load[-2] > part.load[-1] == 0.0
+
+
 def test_holes_carry_no_load_and_stay_holes():
     holes = np.zeros((48, 48), dtype=bool)
     holes[10:14, 20:30] = True

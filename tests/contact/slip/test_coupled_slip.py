@@ -63,6 +63,7 @@ def test_without_coupling_of_the_bodies_the_choice_changes_nothing():
     np.testing.assert_allclose(with_it.displacement, without.displacement, rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_the_stick_circle_does_not_depend_on_the_load():
     (_, one), (_, other) = pressed(force=1.0), pressed(force=8.0)
     assert one.stick_fraction[0] == other.stick_fraction[0]
