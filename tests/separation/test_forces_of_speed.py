@@ -144,7 +144,7 @@ def test_momentum_is_conserved_with_a_film_that_tears():
     np.testing.assert_allclose(result["brake_force"], 5.0 * result["speed"], rtol=1e-12)
 
 
-def test_a_spring_that_holds_a_braked_mass_is_said_and_not_a_brake_that_holds():
+def test_a_spring_that_holds_a_braked_mass_is_reported():
     result = run(imposed(stiffness=2e4, time_limit=1.0), ck.ViscousForce(), LINEAR)
     assert result.status == "stuck"
     assert "spring" in result.message
@@ -219,7 +219,7 @@ def test_without_a_mass_a_linear_brake_sets_the_speed():
 
 
 @frozen(kw_only=True)
-class Told(Brake):
+class Declared(Brake):
     """The same, with slopes of its own, or a word on the speed."""
 
     rate: str = "any"
@@ -235,8 +235,8 @@ class Told(Brake):
 
 def test_slopes_of_ones_own_take_no_more_steps_and_give_the_same():
     given = {"rest": 0.2, "linear": 5.0, "square": 2000.0}
-    exact = run(imposed(), ck.ViscousForce(), Told(**given, has_slopes=True))
-    found = run(imposed(), ck.ViscousForce(), Told(**given))
+    exact = run(imposed(), ck.ViscousForce(), Declared(**given, has_slopes=True))
+    found = run(imposed(), ck.ViscousForce(), Declared(**given))
     assert exact.state.release_time == pytest.approx(found.state.release_time, rel=1e-7)
     assert exact.work.n_evaluations == pytest.approx(found.work.n_evaluations, rel=0.05)
 
@@ -244,12 +244,12 @@ def test_slopes_of_ones_own_take_no_more_steps_and_give_the_same():
 def test_wrong_slopes_cost_steps_and_not_the_right_force():
     """The slopes are used: with those of another force the iteration does not end."""
 
-    class Wrong(Told):
+    class Wrong(Declared):
         def prepare(self, prepared):
             law = super().prepare(prepared)
             return attrs.evolve(law, slopes=lambda gap, speed: (0.0, 1e4))
 
-    right = run(imposed(), Told(linear=5.0, has_slopes=True))
+    right = run(imposed(), Declared(linear=5.0, has_slopes=True))
     wrong = run(imposed(), Wrong(linear=5.0))
     assert wrong.work.n_evaluations > 1.5 * right.work.n_evaluations
 
@@ -257,8 +257,8 @@ def test_wrong_slopes_cost_steps_and_not_the_right_force():
 @pytest.mark.parametrize(("brake", "rate"), [(SQUARE, "proportional"), (LINEAR, "none")])
 def test_a_word_that_the_force_does_not_keep_is_refused(brake, rate):
     given = {"linear": brake.linear, "square": brake.square}
-    with pytest.raises(ck.PlanError, match=f'Told: its ForceLaw says rate="{rate}"'):
-        ck.plan(scene(imposed(), Told(**given, rate=rate)))
+    with pytest.raises(ck.PlanError, match=f'Declared: its ForceLaw says rate="{rate}"'):
+        ck.plan(scene(imposed(), Declared(**given, rate=rate)))
 
 
 # Files and FMUs --------------------------------------------------------------------------------

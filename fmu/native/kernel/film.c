@@ -101,7 +101,7 @@ static void take(ck_left *found, ck_left *left, double menisci, double area, int
     *limit = kind;
 }
 
-/* What the limits leave of the force of the liquid, in which each speed has a share. */
+/* What the limits leave of the force of the liquid; what no limit bounds is added. */
 static void limited(const ck_acting *a, double gap, double log_gap, double speed, double liquid,
                     double liquid_by_gap, ck_forces *found) {
     double by_gap, n = a->menisci, force = liquid * speed;
