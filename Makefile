@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # compile numpy again.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo test test-all release-check lint bench bench-own peers demands docs format clean
+.PHONY: typed demo test test-all release-check lint bench bench-own peers demands docs format clean
 
 $(VENV)/.made:
 	$(PYTHON) -m venv $(VENV)
@@ -52,15 +52,18 @@ demands: $(VENV)/.test
 peers: $(VENV)/.made
 	$(BIN)/python tests/benchmarks/peers/install.py $(VENV)/peers
 
-# mypy reads the package as it is installed, fmu/ and models/ inside it: links lay it out that way.
+# mypy and the site read the package as it is installed, fmu/ and models/ inside it: links lay it
+# out that way.
 TYPED := build/typed/contactkit
-lint: $(VENV)/.lint
-	$(BIN)/ruff check .
-	$(BIN)/ruff format --check .
+typed:
 	rm -rf $(TYPED)
 	mkdir -p $(TYPED)
 	ln -s $(CURDIR)/contactkit/* $(CURDIR)/fmu $(CURDIR)/models $(TYPED)
 	ln -s $(CURDIR)/examples/gallery $(TYPED)/gallery
+
+lint: $(VENV)/.lint typed
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
 	cd build/typed && ../../$(BIN)/mypy --config-file ../../pyproject.toml -p contactkit
 
 format: $(VENV)/.lint
@@ -75,7 +78,7 @@ release-check: $(VENV)/.test
 	$(BIN)/twine check --strict dist/*
 	$(BIN)/python -m pytest -q -m "slow or not slow" tests/rules/test_packaging.py
 
-docs: $(VENV)/.docs
+docs: $(VENV)/.docs typed
 	$(BIN)/mkdocs build --strict
 
 clean:

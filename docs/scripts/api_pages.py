@@ -30,7 +30,15 @@ TOPICS = (
     Topic(
         "bodies",
         "Materials and surfaces",
-        _of("scene", "materials", "surfaces", "rough_surfaces", "asperity_population"),
+        _of(
+            "scene",
+            "materials",
+            "surfaces",
+            "planforms",
+            "faces",
+            "rough_surfaces",
+            "asperity_population",
+        ),
     ),
     Topic(
         "liquids",
@@ -106,7 +114,7 @@ TOPICS = (
         (),
         _of(
             "contactkit.lubrication.reynolds",
-            *("shapes", "face", "gaps", "film", "solve", "motion", "damping", "shape_factor"),
+            *("face", "gaps", "film", "solve", "motion", "damping", "shape_factor"),
             "rough_flow",
         ),
     ),
@@ -143,8 +151,8 @@ TOPICS = (
         "Devices",
         (),
         (
-            *_of("models.injector", "coil", "valve", "monolithic"),
-            *_of("models.micromirror", "mirror", "tip", "electrostatics", "landing"),
+            *_of("contactkit.models.injector", "coil", "valve", "monolithic"),
+            *_of("contactkit.models.micromirror", "mirror", "tip", "electrostatics", "landing"),
         ),
     ),
     Topic(
@@ -152,11 +160,11 @@ TOPICS = (
         "FMUs",
         (),
         (
-            "fmu.python.build",
-            "fmu.native.build",
-            "fmu.framework.ports",
-            "fmu.framework.slave",
-            "fmu.master.couple",
+            "contactkit.fmu.python.build",
+            "contactkit.fmu.native.build",
+            "contactkit.fmu.framework.ports",
+            "contactkit.fmu.framework.slave",
+            "contactkit.fmu.master.couple",
         ),
     ),
 )
