@@ -103,7 +103,11 @@ def _tagged(known: Registry[Any] | Registries[Any], tag: str) -> Callable[[Any, 
         if not isinstance(value, Mapping):
             raise DescriptionError(tag, value, f"be a table with a key {tag!r}")
         rest = dict(value)
-        return _CONVERTER.structure(rest, known.find(rest.pop(tag, None), tag))
+        kind = known.find(rest.pop(tag, None), tag)
+        # A class that is its own base would come here again, without its name.
+        return (
+            _attrs_class(kind)(rest, kind) if _is_base(kind) else _CONVERTER.structure(rest, kind)
+        )
 
     return hook
 

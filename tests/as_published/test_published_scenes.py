@@ -235,7 +235,7 @@ def test_errata_are_printed_by_the_command_line(tmp_path, capsys):
     ck.save_scene(scene, tmp_path / "printed.toml")
     assert main(["run", str(tmp_path / "printed.toml")]) == 0
     text = capsys.readouterr().out
-    assert "errata of what is taken as printed, at the start:" in text
+    assert "errata of what is taken as printed:" in text
     assert "Eq. (3.11) meniscus-force, meniscus force between separating flats" in text
     assert "erratum: It drops the curvature around the axis" in text
 

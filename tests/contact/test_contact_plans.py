@@ -120,7 +120,7 @@ def test_outer_iterations_prepare_nothing(calls, effects, at_least):
     """They solve the contact again and again, with what the plan has prepared once."""
     result = ck.solve(planned(*effects, surface=WAVE, pressure=1e9))
     assert result.work.n_solves >= at_least
-    wave = {name: 1 for name in ONCE if name != "_rough"}
+    wave = {name: 1 for name in ONCE if name != "gaussian_exponential"}
     coupled = {"FrictionCoupling": 1} if SLIDING[1] in effects else {}
     assert calls == wave | coupled
 

@@ -129,11 +129,15 @@ EFFECTS = {
         ck.PartialSlip,
         coefficient=st.floats(0.0, 1.0),
         path=st.lists(tangential_steps, min_size=1, max_size=3).map(tuple),
-        components=st.sampled_from([1, 2]),
         direction=st.floats(-4.0, 4.0),
+    )
+    | st.builds(
+        ck.PartialSlip,
+        coefficient=st.floats(0.0, 1.0),
+        path=st.lists(tangential_steps, min_size=1, max_size=3).map(tuple),
+        components=st.just(2),
         guided=st.booleans(),
-        coupled=st.booleans(),
-        pressing_steps=st.none() | st.integers(1, 9),
+        coupled=st.just(True),
         pressing_rtol=st.floats(1e-4, 0.1),
     ),
     ck.SubsurfaceStress: st.builds(

@@ -18,6 +18,7 @@ from contactkit.fmu.contents.packing import write_archive
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.native.build import build_native
+from contactkit.fmu.native.records import Rate
 from contactkit.fmu.python.build import build
 from contactkit.separation.motion.advance import advance
 from contactkit.separation.motion.state import Pull, start
@@ -98,7 +99,7 @@ def test_a_force_too_rough_for_a_table_is_named():
     )
     rough = lambda gap: 1.0 + 1e-3 * (hash(gap) % 1000)  # noqa: E731
     with pytest.raises(ck.ConvergenceError, match=r"MeniscusForce has no native form.*without"):
-        native_film._law_table(common, MeniscusForce(), Rough(), rough)
+        native_film._law_table(common, MeniscusForce(), Rough(), Rate.AT_REST, rough)
 
 
 @needs_cc

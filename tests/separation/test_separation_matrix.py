@@ -104,7 +104,8 @@ def examine(result, made):
         with pytest.raises(ck.NotSimulatedError, match=rf"add {kind.__name__}\("):
             result.of(kind)
     printed = any(
-        "as-published" in attrs.astuple(effect, recurse=False) or effect == EFFECTS[9]
+        "as-published" in (getattr(effect, "form", ""), getattr(effect, "closure", ""))
+        or effect == EFFECTS[9]
         for effect in made.effects
     )
     assert bool(result.errata) == printed

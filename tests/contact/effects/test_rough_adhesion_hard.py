@@ -313,8 +313,14 @@ def test_a_scene_file_names_the_law(tmp_path):
     [
         ({"approaches": ["-1 um", "0 um"]}, "two finite numbers"),
         ({"approaches": [True, False]}, "two finite numbers"),
-        ({"approaches": [-1e-9, 0.0], "refinements": 1.5}, r"refinements\) must be a whole number"),
-        ({"approaches": [-1e-9, 0.0], "refinements": -1}, r"refinements\) must be a whole number"),
+        (
+            {"approaches": [-1e-9, 0.0], "n_refinements": 1.5},
+            r"refinements\) must be a whole number",
+        ),
+        (
+            {"approaches": [-1e-9, 0.0], "n_refinements": -1},
+            r"refinements\) must be a whole number",
+        ),
     ],
 )
 def test_a_curve_refuses_what_is_no_path(given, words):

@@ -181,7 +181,8 @@ def test_more_steps_of_pressing_change_less():
 def test_the_number_of_pressing_steps_follows_from_the_tolerance(monkeypatch, rtol, steps):
     """Tractions that err by 0.3 over the number of steps, as they do."""
 
-    def pressed_in(run, n, last=0.0):
+    def pressed_in(run, targets, last=0.0):
+        n = len(targets)
         state = SimpleNamespace(traction=np.full((2, 1, 1), 0.5**0.5 * (1.0 + 0.3 / n)))
         taken = SimpleNamespace(state=state, bound=np.ones(1))
         return SimpleNamespace(taken=taken, solved=SimpleNamespace(problem=""))
@@ -190,7 +191,9 @@ def test_the_number_of_pressing_steps_follows_from_the_tolerance(monkeypatch, rt
     effect = ck.PartialSlip(
         coefficient=0.3, path=REST, components=2, coupled=True, pressing_rtol=rtol
     )
-    found = slip_path._press(None, effect)
+    scene = SimpleNamespace(effect=lambda kind: None)
+    run = SimpleNamespace(plan=SimpleNamespace(scene=scene), targets=lambda n: [None] * n)
+    found = slip_path._press(run, effect)
     assert found.steps == steps
     assert found.error == pytest.approx(0.3 / steps)
 
@@ -219,9 +222,9 @@ def test_a_sphere_pressed_by_default_sticks_as_far_as_spence_has_it():
 
 
 def test_steps_of_pressing_that_nothing_uses_are_refused():
-    with pytest.raises(ck.PlanError, match="coupled=True for pressing_steps"):
+    with pytest.raises(ck.DescriptionError, match=r"pressing_steps must be left out without coup"):
         pressed(coupled=False, pressing_steps=8)
-    with pytest.raises(ck.PlanError, match="either pressing_steps or pressing_rtol"):
+    with pytest.raises(ck.DescriptionError, match=r"pressing_steps must be left out beside press"):
         pressed(pressing_steps=8, pressing_rtol=0.02)
 
 
