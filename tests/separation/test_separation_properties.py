@@ -337,7 +337,7 @@ effects = st.tuples(
         cavity=st.sampled_from(["mass-conserving", "truncated", "reynolds"]),
     ),
     st.builds(ck.ShearLimit, strength=positives),
-    st.builds(ck.Rupture, gap=st.none() | lengths),
+    st.builds(ck.Rupture, gap=st.sampled_from(["limit", "zero-neck"]) | lengths),
 )
 scenes = st.builds(
     ck.SeparationScene,
