@@ -1,4 +1,4 @@
-"""Names imported when they are first asked for: of a package (PEP 562), and of rooms above."""
+"""Lazy imports: names of a package (PEP 562), functions of rooms above, and ``module:name``."""
 
 from __future__ import annotations
 

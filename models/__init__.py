@@ -5,7 +5,7 @@ micromirror     Digital micromirror: electrostatics, spring tips, landing and re
 head_disk       Head-disk interface: its scene.
 end_stop        Rough faces of an end stop.
 liquid_bridges  Liquid bridges whose closures are compared.
-device          What a device says in its file, and the report that runs it.
+device          Base class of devices, and of the reports that run them.
 library         Scenes and kinds of devices by name.
 ode_events      Events of scipy's solvers, and slopes by differences, for monolithic models.
 """

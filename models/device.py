@@ -1,4 +1,4 @@
-"""Devices: what their files say, and the report that runs them, imported when it is called for."""
+"""Base class of devices, and of the reports that run them, which are imported when called for."""
 
 from __future__ import annotations
 

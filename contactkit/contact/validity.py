@@ -111,7 +111,7 @@ def _light(n_touching: int) -> str:
 
 
 def _width(touching: NDArray[np.bool_], edges: Edges) -> float | None:
-    """Mean width [pixels] of what runs through the window along an axis that repeats, as a nip.
+    """Mean width [pixels] of a contact strip across the periodic axis, as of a nip.
 
     None where nothing does, or along both axes: spots that end inside the window are about as wide
     as they are long, and so are the holes of what leaves nothing but holes.
@@ -125,7 +125,7 @@ def _width(touching: NDArray[np.bool_], edges: Edges) -> float | None:
 
 
 def _through(touching: NDArray[np.bool_], axis: str, edges: Edges) -> float | None:
-    """Mean width [pixels] of what runs through the window along an axis, if anything does."""
+    """Mean width [pixels] of a contact strip along an axis of the window; None without one."""
     lines = touching.T if axis == "x" else touching  # along the axis, from first to last
     if not lines.any(axis=1).all():
         return None

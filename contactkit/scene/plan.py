@@ -27,7 +27,7 @@ class _Scene(Protocol):
 
 
 class ScenePlan(abc.ABC):
-    """A checked scene made ready to run.
+    """A checked and prepared scene.
 
     ``print(plan)`` says what will be simulated and what will not; `cite` gives the sources.
     """

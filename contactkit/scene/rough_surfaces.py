@@ -273,7 +273,7 @@ def _filled(heights: Map, holes: Mask) -> Map:
 
 @frozen(kw_only=True, eq=False)
 class Heights(Surface):
-    """Heights in hand, for people who come with an array.
+    """Heights given as an array.
 
     Masked pixels (`numpy.ma`) are holes: what the instrument did not measure, or a pore. They carry
     no load. There `heights` has that of the nearest pixel measured, so that no number is missing;

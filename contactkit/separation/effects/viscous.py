@@ -392,9 +392,9 @@ class TensionLimit(FilmLimit):
 
     Notes
     -----
-    The film tears in its centre, where the tension is highest, and the cavity is round. The film is
-    whole again when liquid has filled it, and then has its strength again at once. Meniscus forces
-    are those of a film without a cavity.
+    The film ruptures in its centre, where the tension is highest, and the cavity is round. When
+    liquid has filled it (reformation), the film has its strength again at once. Meniscus forces are
+    those of a film without a cavity.
     """
 
     name: ClassVar[str] = "tension-limit"

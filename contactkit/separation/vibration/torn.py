@@ -66,7 +66,7 @@ class TornCycles:
         return torn_points(self.film, self.law, self.steady, inside, self.rtol, self._known_steady)
 
     def events(self, times: Sequence[float]) -> list[float]:
-        """Times [s] between known ones at which the film tears, heals, or its edge turns."""
+        """Times [s] between known ones of rupture, of reformation, and at which the edge turns."""
         known = [*map(self._known.get, times), *map(self._known_steady.get, times)]
         return [event for one in known if one is not None for event in one.events]
 
