@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-__all__ = ["ABOVE", "above", "lazy_names"]
+__all__ = ["ABOVE", "above", "lazy_names", "named"]
 
 ABOVE = {
     "figures_of": "plot.accessors.base",
@@ -28,6 +28,18 @@ def above(name: str) -> Any:
     'save_result'
     """
     return getattr(import_module(f"{__package__}.{ABOVE[name]}"), name)
+
+
+def named(path: str) -> Any:
+    """Return what ``module:name`` names; the module is imported at the first call.
+
+    Examples
+    --------
+    >>> named("contactkit.accuracy:Accuracy").__name__
+    'Accuracy'
+    """
+    module, _, name = path.partition(":")
+    return getattr(import_module(module), name)
 
 
 def lazy_names(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
+from ._lazy import named
 from .accuracy import Accuracy
 from .errors import PlanError
 from .scene.plan import ScenePlan, check_accuracy, check_scene
@@ -128,8 +128,5 @@ def _kind(scene: type) -> _Kind:
 
 
 def _function(name: _Function) -> Callable[..., Any]:
-    if not isinstance(name, str):
-        return name
-    module, _, function = name.partition(":")
-    found: Callable[..., Any] = getattr(import_module(f"{__package__}.{module}"), function)
+    found: Callable[..., Any] = named(f"{__package__}.{name}") if isinstance(name, str) else name
     return found

@@ -6,9 +6,9 @@ import inspect
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from importlib import import_module
 from typing import Any, Generic, TypeVar
 
+from ._lazy import named
 from .errors import DescriptionError, nearest
 from .installed import installed_kinds, refuse_installed
 
@@ -58,6 +58,11 @@ class _Listing(Sequence[type[T_co]], Generic[T_co]):
         found = (registry.get(name) for registry in self._registries())
         return next((kind for kind in found if kind is not None), None)
 
+    def of(self, kind: object) -> Registry[T_co] | None:
+        """Return the registry of the family of a class; None for a class of no family."""
+        family = family_of(kind)
+        return next((one for one in self._registries() if family and one.family == family), None)
+
     def find(self, name: object, field: str = "") -> type[T_co]:
         """Return the class of a name in files; of other packages only that one is imported.
 
@@ -102,7 +107,7 @@ class _Listing(Sequence[type[T_co]], Generic[T_co]):
             If it is of no such family, is not complete, or its name is taken.
         """
         registries = self._registries()
-        home = next((one for one in registries if one.family == family_of(kind)), None)
+        home = self.of(kind)
         if home is None:
             bases = dict.fromkeys(one.role for one in registries)
             problem = f"give a class whose base class is {' or '.join(bases)}"
@@ -218,8 +223,7 @@ class Registry(_Listing[T_co]):
         return name if isinstance(name, str) and self.get(name) is kind else ""
 
     def _ours(self, name: str) -> type[T_co]:
-        module, _, attribute = self.homes[name].partition(":")
-        found: type[T_co] = getattr(import_module(f".{module}", __package__), attribute)
+        found: type[T_co] = named(f"{__package__}.{self.homes[name]}")
         return found
 
     def _installed(
@@ -265,11 +269,6 @@ class Registries(_Listing[T_co]):
 
     def _registries(self) -> tuple[Registry[T_co], ...]:
         return self._parts
-
-    def of(self, kind: object) -> Registry[T_co] | None:
-        """Return the registry of the family of a class; None for a class of no family."""
-        family = family_of(kind)
-        return next((one for one in self._parts if family and one.family == family), None)
 
 
 def _origin(kind: type) -> tuple[str, str]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .._lazy import named
 from ..errors import DescriptionError, nearest
 
 if TYPE_CHECKING:
@@ -33,8 +33,7 @@ def device_kind(name: object) -> type[Device]:
     if not isinstance(name, str) or name not in _DEVICES:
         hint = nearest(name, sorted(_DEVICES))
         raise DescriptionError("device", name, "be a known device", hint=hint)
-    module, _, kind = _DEVICES[name].partition(":")
-    found: type[Device] = getattr(import_module(module), kind)
+    found: type[Device] = named(_DEVICES[name])
     return found
 
 

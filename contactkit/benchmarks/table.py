@@ -6,11 +6,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from importlib import import_module
 from pathlib import Path
 
 from attrs import frozen
 
+from .._lazy import named
 from ..errors import DescriptionError, nearest
 from ..export.report import Report
 from ..work_precision import Point, WorkPrecision
@@ -52,10 +52,7 @@ class AccuracyStudy:
 
     def points(self) -> list[Point]:
         """Measure error, counts and seconds of every setting; a minute or less."""
-        module, _, function = self.measured_by.partition(":")
-        measure: Callable[[], list[Point]] = getattr(
-            import_module(f"{__package__}.{module}"), function
-        )
+        measure: Callable[[], list[Point]] = named(f"{__package__}.{self.measured_by}")
         return measure()
 
     def measured(self) -> WorkPrecision:
