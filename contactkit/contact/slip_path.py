@@ -146,7 +146,7 @@ class SlipDisplacement(Unknown):
 
     def first(self, target: Target) -> Map:
         """See `Unknown.first`."""
-        known = (target.unknowns or {}).get(self.name)
+        known = target.unknowns.get(self.name)
         return known if known is not None else np.zeros(self._run.plan.grid.shape)
 
     def hold(self, held: Held, value: Map) -> Held:

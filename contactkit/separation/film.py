@@ -17,7 +17,6 @@ from .integrator.radau import Forces
 
 __all__ = ["Film", "ForcesAt"]
 
-_STATIC, _VISCOUS = (Forces._fields.index(name) for name in ("static", "viscous"))
 _DIFFERENCE = 1e-7  # relative, of gap and speed, for the slopes of a force that a limit bounds
 
 
@@ -70,7 +69,6 @@ class Film:
     _any: tuple[ForceLaw, ...] = field(init=False, repr=False)
     _bounded: ForceLaw | None = field(init=False, repr=False)
     _moving: tuple[ForceLaw, ...] = field(init=False, repr=False)
-    _are_sums: tuple[int, ...] = field(init=False, repr=False)
 
     @kinks.default
     def _find_kinks(self) -> tuple[float, ...]:
@@ -128,14 +126,6 @@ class Film:
     def _find_moving(self) -> tuple[ForceLaw, ...]:
         bounded = () if self._bounded is None else (self._bounded,)
         return (*self._proportional, *bounded, *self._any)
-
-    @_are_sums.default
-    def _find_sums(self) -> tuple[int, ...]:
-        """Places in `Forces` of the only force at rest and the only one of the speed; or none."""
-        rates = [law.rate for law in self.laws.values()]
-        if "any" in rates or len(set(rates)) < len(rates):
-            return ()
-        return tuple(_STATIC if rate == "none" else _VISCOUS for rate in rates)
 
     def _unbounded(self, rate: str) -> tuple[ForceLaw, ...]:
         pairs = self.laws.items()
@@ -258,8 +248,6 @@ class Film:
         What the sums say by themselves is not evaluated again; and a force with a memory is what
         the others leave of the sum.
         """
-        if self._are_sums:
-            return [forces[i] for i in self._are_sums]
         found = []
         for law in self.laws.values():
             if law.rate == "none":

@@ -21,7 +21,7 @@ pull leave no load to the contact, the bodies have been pulled off.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -83,7 +83,7 @@ def _settled(
 def _begun(outer: Outer, target: Target, bound: Map | float | None) -> Target:
     """Target with the tension and the pressure of contact to start from."""
     alone, load = target._replace(start=target.pressure), target.mean_pressure
-    if Tension.name in (target.unknowns or {}):
+    if Tension.name in target.unknowns:
         return alone
     if load is None or load >= 0.0:
         return alone
@@ -120,7 +120,7 @@ def _pulled_off(
     Every smaller pull is carried, as the tension only falls as the pull grows.
     """
     area, pull = outer.plan.grid.area, -float(target.mean_pressure or 0.0)
-    first: Any = (begun.unknowns or {}).get(Tension.name)
+    first = begun.unknowns.get(Tension.name)
     carried, too_much = 0.0, min(pull, 0.0 if first is None else float(first.mean()))
     for _ in range(_MAX_HALVINGS):
         if too_much - carried <= _PULL_OFF * too_much:
@@ -131,7 +131,7 @@ def _pulled_off(
             too_much = trial
         else:
             carried, begun = trial, _from(begun, settled)
-    has_start = Tension.name in (target.unknowns or {})
+    has_start = Tension.name in target.unknowns
     where = "the state to start from" if has_start else "a contact under no load"
     return InfeasibleError(
         f"a pull of {pull * area:.6g} N exceeds the pull-off force, about {carried * area:.3g} N "

@@ -56,7 +56,7 @@ class TractionDisplacement(Unknown):
 
     def first(self, target: Target) -> Map:
         """See `Unknown.first`."""
-        known = (target.unknowns or {}).get(self.name)
+        known = target.unknowns.get(self.name)
         return known if known is not None else np.zeros(self._shape)
 
     def hold(self, held: Held, value: Map) -> Held:

@@ -53,7 +53,7 @@ class Tension(Unknown):
 
     def first(self, target: Target) -> Map:
         """See `Unknown.first`: that of the state to start from, which decides on the branch."""
-        known = (target.unknowns or {}).get(self.name)
+        known = target.unknowns.get(self.name)
         return known if known is not None else np.zeros(self._shape)
 
     def hold(self, held: Held, value: Map) -> Held:
@@ -101,5 +101,5 @@ def on_branch_of(target: Target, values: dict[str, Map]) -> dict[str, Map]:
     A contact repeated with another hardness, say, must not start on the other side of its state.
     """
     known = {name: value for name, value in values.items() if name != Tension.name}
-    given = (target.unknowns or {}).get(Tension.name)
+    given = target.unknowns.get(Tension.name)
     return known if given is None else {**known, Tension.name: given}

@@ -8,6 +8,7 @@ effect. `iteration` looks for unknowns that agree with the contact they lead to.
 from __future__ import annotations
 
 import abc
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -39,7 +40,7 @@ class Target(NamedTuple):
     rigid_approach: float | None
     start: Start | None = None
     hardness: float | None = None
-    unknowns: Mapping[str, Map] | None = None
+    unknowns: Mapping[str, Map] = MappingProxyType({})
 
     @property
     def pressure(self) -> Map | None:

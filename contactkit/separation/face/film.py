@@ -115,17 +115,14 @@ def face_film(shape: FaceShape, gaps: tuple[float, float], rtol: float) -> FaceF
         return FaceFilm(shape, known.law, known.depth, rtol=rtol)
     from .grid import gridded
 
-    cells = _FEWEST
-    before = _coefficient(gridded(shape, cells), gaps[0])
+    before, cells = _coefficient(gridded(shape, _FEWEST), gaps[0]), 2 * _FEWEST
     while True:
-        cells *= 2
         grid = gridded(shape, cells)
         found = _coefficient(grid, gaps[0])
         error = abs(before / found - 1.0)
         if error <= rtol:
             break
-        _finer(cells, error, rtol)
-        before = found
+        before, cells = found, _finer(cells, error, rtol)
     law, missed = _law(grid, gaps)
     return FaceFilm(shape, law, 0.0, error + missed, cells, rtol)
 
