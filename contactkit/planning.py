@@ -28,13 +28,14 @@ class _Kind(NamedTuple):
 
     plan: _Function
     run: _Function
+    reports_progress: bool = False
 
 
 _SIMULATE = "separation.simulate:simulate"
 _KINDS: dict[type[Scene], _Kind] = {
     ContactScene: _Kind("contact.plan:plan_contact", "contact.solve:solve"),
-    SeparationScene: _Kind("separation.plan:plan", _SIMULATE),
-    SlidingScene: _Kind("separation.sliding.plan:plan_sliding", _SIMULATE),
+    SeparationScene: _Kind("separation.plan:plan", _SIMULATE, True),
+    SlidingScene: _Kind("separation.sliding.plan:plan_sliding", _SIMULATE, True),
 }
 
 
@@ -117,9 +118,9 @@ def run(made: ScenePlan, progress: Progress | None = None) -> Result:
     progress : callable, optional
         Called with the completed fraction by what reports it.
     """
-    name = _kind(type(made.scene)).run
-    more = {"progress": progress} if name == _SIMULATE else {}
-    result: Result = _function(name)(made, **more)
+    kind = _kind(type(made.scene))
+    more = {"progress": progress} if kind.reports_progress else {}
+    result: Result = _function(kind.run)(made, **more)
     return result
 
 

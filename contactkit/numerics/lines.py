@@ -12,7 +12,10 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-__all__ = ["errors_of_lines", "needed", "with_middles"]
+__all__ = ["SHARE", "errors_of_lines", "needed", "with_middles"]
+
+SHARE = 0.9
+"""Of an error, for what lines between the points leave out; the rest is for points left out."""
 
 # Of the largest value of a curve: its round-off. A constant with noise of 1e-14 takes no point
 # more; with 1e-15 it takes 385 000, as the noise is all of its range.

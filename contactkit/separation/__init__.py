@@ -13,7 +13,7 @@ vibration      Separation at an imposed speed with a vibration of the gap.
 torn_path      Film that tears, along an imposed motion.
 motion_curves  Curves of a motion, computed when asked for.
 refine         Points between the steps of a motion where straight lines need them.
-bridge_end     How near a bridge is to its end, for the points of its shape.
+bridge_end     Distance of a bridge to its end, which lines of curves follow.
 motion         Motion of a mass under a pull: state, events, time steps.
 integrator     Implicit integration of a mass on a stiff film.
 curve_result   Base class of the results of a separation and of a sliding.

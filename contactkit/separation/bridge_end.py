@@ -3,11 +3,31 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
+from ..numerics.lines import errors_of_lines
 from .effects.base import effects_of
 from .plan import Plan
 
-__all__ = ["distance_to_end"]
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+__all__ = ["distance_to_end", "errors_of_curves", "followed"]
+
+
+def followed(plan: Plan, gap: float, volume_fraction: float = 1.0) -> tuple[float, float]:
+    """Coordinates that lines follow beside the curves: distance to the end, and ln of the gap."""
+    return distance_to_end(plan, gap, volume_fraction), math.log(gap)
+
+
+def errors_of_curves(table: Floats, rtol: float) -> Floats:
+    """Error that lines of each curve may have; the last two columns are those of `followed`."""
+    errors = errors_of_lines(table, rtol) + 1e-300
+    errors[-2:] = rtol
+    return errors
 
 
 def distance_to_end(plan: Plan, gap: float, volume_fraction: float = 1.0) -> float:

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import ConvergenceError
-from ..numerics.lines import errors_of_lines, needed
-from .bridge_end import distance_to_end
+from ..numerics.lines import SHARE, needed
+from .bridge_end import errors_of_curves, followed
 from .motion.advance import advance
 from .motion.state import MotionState, PullLaw
 from .plan import Plan
@@ -32,7 +32,6 @@ __all__ = ["Row", "refined"]
 Row = Callable[[MotionState], Sequence[float]]
 """What the curves show of a state, the gap first."""
 
-_SHARE = 0.9  # of the error for what lines leave out; the rest is for points that are left out
 _CURVED = 0.05  # of the error, by second differences of the steps: below, a step needs no points
 _JUMP = 1e-6  # of a step, in which a jump is drawn; where a limit sets in, rounding takes 1e-8
 _STILL = 1e-14  # of the gap, some fifty times its rounding
@@ -61,13 +60,11 @@ def refined(
     """
 
     def shown(state: MotionState) -> Floats:
-        to_end = distance_to_end(plan, state.gap, state.volume_fraction)
-        return np.array([*row(state), to_end, math.log(state.gap)])
+        return np.array([*row(state), *followed(plan, state.gap, state.volume_fraction)])
 
     rows = np.array([shown(state) for state in states])
     rtol = plan.accuracy.curve_rtol
-    errors = errors_of_lines(rows, rtol) + 1e-300
-    errors[-2:] = rtol  # of the distance to the end of a bridge, and of the logarithm of the gap
+    errors = errors_of_curves(rows, rtol)
     filled = _Filled(plan, pull, shown, errors, rtol)
     filled.add(states[0], rows[0], is_event=True)
     needed = _curved(np.array([s.time for s in states]), rows, errors, rtol)
@@ -178,8 +175,8 @@ class _Filled:
             row_of_last = row_of_end if is_last else self._row(last)
             part = (middle.time - here.time) / (last.time - here.time)
             miss = np.abs(half - row - part * (row_of_last - row))
-            allowed = _SHARE * self._errors
-            allowed[0] = _SHARE * self._rtol * half[0]
+            allowed = SHARE * self._errors
+            allowed[0] = SHARE * self._rtol * half[0]
             error = float((miss / allowed).max())
             # A gap that rounding holds where it is shows no state between: shorter parts of a step
             # would creep towards a jump (at the edge of a full film) and never reach it.
@@ -208,7 +205,7 @@ class _Filled:
         chosen = np.flatnonzero(starts | ends)
         chosen = chosen[np.concatenate([[True], np.diff(shown[chosen]) > 0.0])]
         table = np.column_stack([shown, rows])[chosen]
-        allowed = np.tile((1.0 - _SHARE) * self._errors, (len(chosen), 1))
-        allowed[:, 0] = (1.0 - _SHARE) * self._rtol * table[:, 1]
+        allowed = np.tile((1.0 - SHARE) * self._errors, (len(chosen), 1))
+        allowed[:, 0] = (1.0 - SHARE) * self._rtol * table[:, 1]
         kept = needed(table, allowed, np.flatnonzero(events[chosen]))
         return [self._states[i] for i in chosen[kept].tolist()], table[kept, :-2]

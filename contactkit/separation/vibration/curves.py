@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import field, frozen
 
-from ...numerics.lines import errors_of_lines, needed, with_middles
+from ...numerics.lines import SHARE, needed, with_middles
 from .. import prescribed
-from ..bridge_end import distance_to_end
+from ..bridge_end import errors_of_curves, followed
 from ..effects.base import LIMIT, FilmStatus
 from ..plan import Plan
 from ..torn_path import TornPoint
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 __all__ = ["CycleCurves", "CycleLines", "curve_names"]
-
-_SHARE = 0.9  # of the error for what lines leave out; the rest is for points that are left out
 
 
 def curve_names(plan: Plan) -> list[str]:
@@ -99,9 +97,9 @@ class CycleCurves:
         times = self.cycle.times
         if self.torn is not None:
             times = np.unique([*times, *self.torn.events(times[1:].tolist())])
-        times = with_middles(times, self.table, rtol, lambda values: _SHARE * allowed(values))
+        times = with_middles(times, self.table, rtol, lambda values: SHARE * allowed(values))
         table = self.table(times)
-        rest = (1.0 - _SHARE) * allowed(table)
+        rest = (1.0 - SHARE) * allowed(table)
         kept = needed(np.column_stack([times, table]), rest, np.array([0]))
         return times[kept], table[kept]
 
@@ -131,7 +129,7 @@ class CycleCurves:
             "steady_pull": self._steady_pull(time, calm),
             "film_status": float(FilmStatus.FULL if is_full else FilmStatus.BRIDGE),
         }
-        return [*(known[name] for name in names), distance_to_end(plan, gap), math.log(gap)]
+        return [*(known[name] for name in names), *followed(plan, gap)]
 
     def _steady_pull(self, time: float, calm: TornPoint | None) -> float:
         """Pull [N] at a time without the vibration; 0 where the film would have broken."""
@@ -150,15 +148,14 @@ class CycleLines:
 
     def at_edges(self) -> dict[str, Floats]:
         """Curves at the edges of the panels, by their names."""
-        table = np.concatenate([part.table(part.cycle.times) for part in self.parts])
-        return dict(zip(_names(self.plan), table.T, strict=False))
+        return dict(zip(_names(self.plan), self._edges().T, strict=False))
+
+    def _edges(self) -> Floats:
+        return np.concatenate([part.table(part.cycle.times) for part in self.parts])
 
     def __call__(self) -> dict[str, Floats]:
         """Return the curves by their names; a jump is two points."""
-        edges = np.concatenate([part.table(part.cycle.times) for part in self.parts])
-        rtol = self.plan.accuracy.curve_rtol
-        errors = errors_of_lines(edges, rtol) + 1e-300
-        errors[-2:] = rtol  # of the distance to the end of a bridge, and of the logarithm
+        errors = errors_of_curves(self._edges(), self.plan.accuracy.curve_rtol)
         found = [part.lines(errors) for part in self.parts]
         for (times, _), (later, _) in pairwise(found):
             # The mean of a cycle changes at once.
