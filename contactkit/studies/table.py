@@ -159,7 +159,7 @@ class Study(Tabular, Generic[R_co]):
         fits = [i for i, paths in enumerate(self.paths) if any(p.startswith(wanted) for p in paths)]
         axis = fits[0] if fits else len(self.shape) - 1
         places = np.moveaxis(np.arange(len(self.points)).reshape(self.shape), axis, -1)
-        # A parameter of one value tells no line from another.
+        # A parameter of one value does not distinguish lines.
         others = [
             p for i, ps in enumerate(self.paths) if i != axis and self.shape[i] > 1 for p in ps
         ]
@@ -445,7 +445,7 @@ def _changes(column: NDArray[np.float64]) -> bool:
 
 
 def _in_proportion(one: NDArray[np.float64], other: NDArray[np.float64]) -> bool:
-    """Whether two columns have a constant ratio, to rounding, where both are numbers."""
+    """Whether two columns have a constant ratio, within round-off, where both are numbers."""
     if not np.array_equal(np.isnan(one), np.isnan(other)):
         return False
     a, b = (values[np.isfinite(values)] for values in (one, other))

@@ -59,7 +59,7 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
     ("head-disk", "cost"): {"cost": "head-disk-cost"},
 }
 CURVES = {"wet-film-reported-only": "False", "wet-film-pulls-too": "True"}
-SELF_CONSISTENT = "effects.film-meniscus.self_consistent [-]"  # tells them apart
+SELF_CONSISTENT = "effects.film-meniscus.self_consistent [-]"  # distinguishes them
 COLUMNS = {  # of a load curve: heading and factor
     "loading.pressure": ("mean pressure [MPa]", 1e-6),
     "max_pressure": ("maximum pressure [GPa]", 1e-9),

@@ -54,7 +54,7 @@ class Contents(Record):
         Variable, "by their value references", most=len(VARIABLES), least=1
     )
     tables: FilmTables | None = maybe(FilmTables, "film of a scene, or of a tip")
-    faces: Faces | None = maybe(Faces, "faces of a stop, or of the site of a tip")
+    faces: Faces | None = maybe(Faces, "rough faces of an end stop, or of the site of a tip")
 
 
 def contents_of(

@@ -139,7 +139,7 @@ def test_a_landing_is_the_first_of_a_dense_look(seed):
     assert 10 < landed < 55
 
 
-def test_a_long_flight_out_of_reach_costs_next_to_nothing():
+def test_a_long_flight_out_of_reach_costs_few_evaluations():
     """62 000 swings in Python took seconds, look by look."""
     looks = []
 

@@ -174,7 +174,7 @@ def test_blocks_that_fall_to_nothing_settle_though_their_scale_does_too():
     assert not found.values[0].any()
 
 
-def test_what_does_not_settle_or_fails_says_so():
+def test_what_does_not_settle_or_fails_is_reported():
     away = linear(np.diag([-3.0]), np.ones(1))
     found = settle(away, (np.zeros(1),), ((ALL, Plain()),), 1e-9, max_iterations=7)
     assert (found.is_settled, found.n_evaluations) == (False, 7)

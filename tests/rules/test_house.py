@@ -485,11 +485,11 @@ def without_a_reason(source):
         first = node.lineno - 1
         while first > 0 and lines[first - 1].strip() and not lines[first - 1].startswith("#"):
             first -= 1
-        is_said = first > 0 and lines[first - 1].startswith("#")
-        is_said |= any("#" in line for line in lines[node.lineno - 1 : node.end_lineno])
+        has_comment = first > 0 and lines[first - 1].startswith("#")
+        has_comment |= any("#" in line for line in lines[node.lineno - 1 : node.end_lineno])
         below = getattr(following, "value", None)
-        is_said |= isinstance(below, ast.Constant) and isinstance(below.value, str)
-        if not is_said:
+        has_comment |= isinstance(below, ast.Constant) and isinstance(below.value, str)
+        if not has_comment:
             found.append(ast.unparse(node).partition(" =")[0])
     return found
 

@@ -39,7 +39,7 @@ def tracked():
     return tuple(done.stdout.split())
 
 
-def told(path, text):
+def described(path, text):
     """Docstrings and comments of a source, or the whole text of a page."""
     if path.endswith(".md"):
         return text
@@ -57,7 +57,7 @@ def wrong(stale, *endings, but=()):
     for path in tracked():
         if path.endswith(endings) and path not in but:
             text = (ROOT / path).read_text("utf-8")
-            names = stale(told(path, text)) if stale(text) else []
+            names = stale(described(path, text)) if stale(text) else []
             found |= {path: names} if names else {}
     return found
 

@@ -32,7 +32,7 @@ LAYOUT = sources.layout()
 
 @pytest.fixture(scope="module")
 def faces():
-    """Faces that yield, with as few nodes as tell the curves apart."""
+    """Elastic faces, with as few nodes as distinguish the curves."""
     curve = default_curve()
     assert curve.unloading
     return faces_of(LoadDisplacementCurve.from_data(curve.to_data()))
