@@ -2,9 +2,9 @@
 
 mesh      Rings: nodes, areas, conductances.
 drive     An imposed gap, or forces on a mass with a spring.
-wet_gap   Film, contact and motion as one system of equations, in units of viscosity 1.
+wet_gap   Film, contact and motion as equations of one unknown, in units of viscosity 1.
 step      One implicit step: Radau IIA, semismooth Newton, error estimate.
-follow    Steps by their error; the rupture of a film stronger than a cavity.
+follow    Adaptive steps; the rupture of a film stronger than a cavity.
 motion    Motion of smooth bodies in SI units, extrapolated from three meshes.
 response  Storage and loss modulus over the frequency.
 """

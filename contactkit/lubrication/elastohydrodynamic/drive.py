@@ -1,4 +1,4 @@
-"""What moves the bodies: an imposed rigid gap, or forces on a mass with a spring."""
+"""Drives of the bodies: an imposed rigid gap, or forces on a mass with a spring."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Wet gap in time: steps by their error, and the rupture of a film that is stronger than a cavity.
+"""Wet gap in time: adaptive steps, and the rupture of a film that is stronger than a cavity.
 
 The liquid ruptures at a tension that may exceed that of a cavity. Until then no cavity opens; the
 instant is located, and from there on the pressure of the cavity is the floor, until the last void
@@ -27,13 +27,13 @@ Array = NDArray[np.float64]
 _SHORTEST = 1e-10  # step over the whole span, below which there is none
 # Step after a rupture over that before it: pressures jump, so that no estimate holds there.
 _AFTER_JUMP = 1e-3
-_EXTRAPOLATED = 2.5  # growth of a step up to which the last one tells where the next begins
+_EXTRAPOLATED = 2.5  # growth of a step up to which the last one is extrapolated
 _RUPTURE = 1e-6  # where in a step the film ruptures, of its length
 
 
 @frozen
 class Control:
-    """How a motion is followed.
+    """Tolerance and steps of a motion.
 
     Parameters
     ----------

@@ -27,6 +27,13 @@ Array = NDArray[np.float64]
 # measured in tests/lubrication/elastohydrodynamic, errors are 0.02 to 0.2 of it. At the edge of a
 # cavity or a contact the order is lower, and all of it is taken.
 _SMOOTH = 0.25
+# First step over the span, and over the time in which the gap changes by itself, which a limit of
+# time may exceed by far: transients that are shorter are not resolved.
+_FIRST, _FIRST_IN_UNITS = 1e-5, 1e-3
+# Extremes over the nodes and sums over sets of nodes: of no order in the elements.
+_OF_ONE_MESH = frozenset({"smallest_gap", "largest_tension", "contact_area"})
+# Rim over the width of the pressure up to which 48 elements give 1e-4; beyond, as many per decade.
+_NEAR_RIM = 8.0
 _SAME = 1e-12  # times over the last one that differ by round-off
 
 
@@ -109,6 +116,8 @@ class Motion(NamedTuple):
         At all these times, of the finest mesh.
     end_times : list of float
         Times at which the phases ended [s].
+    is_over : bool
+        Whether the last phase ended at its gap, and not at its last time.
     rupture_time : float
         When the film first ruptured, or a cavity opened [s]; nan: it did not.
     error : float
@@ -120,6 +129,7 @@ class Motion(NamedTuple):
     columns: Mapping[str, Array]
     profiles: list[Profile]
     end_times: list[float]
+    is_over: bool
     rupture_time: float
     error: float
     n_steps: int
@@ -166,7 +176,8 @@ def move(
     speed : float
         A speed that is characteristic [m/s]: it sets the units of the iteration, no result.
     elements : int
-        Of the finest mesh, a multiple of 4. 0: 48, with cavities or contact 64.
+        Of the finest mesh, a multiple of 4. 0: 48, with cavities or contact 64, and more where the
+        rim lies beyond 8 widths of the pressure.
     tolerance : float
         Of a step, see `Control`.
 
@@ -181,7 +192,7 @@ def move(
     and approaches at beta of 1e-3 to 10, 9e-4 with a cavity, 5e-4 with a contact, whose own force
     is right to 1.5 % where most of it is gone; 0.4 s of CPU a smooth pull, 2 to 4 s the others.
     """
-    elements = elements or (48 if _is_smooth(film) else 64)
+    elements = elements or _elements(film)
     units = _units(film, speed)
     middle = _run(film, units, phases, elements // 2, tolerance)
     times = np.unique([state.time for state in middle.states])
@@ -190,8 +201,8 @@ def move(
     runs = [others[0], middle, others[1]]
     common = _common(runs, times)
     tables = [_table(run, common, units) for run in runs]
-    columns = {name: _richardson(*(table[name] for table in tables[1:])) for name in tables[0]}
-    before = {name: _richardson(*(table[name] for table in tables[:2])) for name in tables[0]}
+    columns = {name: _extrapolated(name, *tables[1:]) for name in tables[0]}
+    before = {name: _extrapolated(name, *tables[:2]) for name in tables[0]}
     fine = runs[-1]
     return Motion(
         {**columns, "time": common * units.time},
@@ -200,6 +211,7 @@ def move(
             float(_richardson(*ends)) * units.time
             for ends in zip(*(r.ends for r in runs[1:]), strict=True)
         ],
+        fine.states[-1].fields.rigid_gap * units.gap >= phases[-1].until,
         _rupture(runs, units),
         _error(columns, before),
         *fine.counts,
@@ -208,6 +220,13 @@ def move(
 
 def _is_smooth(film: SmoothGap) -> bool:
     return math.isinf(film.cavity) and not film.cutoff
+
+
+def _elements(film: SmoothGap) -> int:
+    stretch = 1.0
+    if film.wetting is None and math.isfinite(film.radius):
+        stretch = max(math.asinh(film.rim / film.width) / math.asinh(_NEAR_RIM), 1.0)
+    return 4 * math.ceil((12 if _is_smooth(film) else 16) * stretch)
 
 
 def _units(film: SmoothGap, speed: float) -> _Units:
@@ -279,7 +298,13 @@ def _run(
         drive = phase.drive(state.fields.rigid_gap * units.gap, state.time * units.time)
         moved = evolve(gap, drive=_drive(drive, units))
         times = [state.time, *(t / units.time for t in phase.times if t / units.time > state.time)]
-        control = Control(tolerance, 3 if smooth else 2, film.strength / units.pressure)
+        span = times[-1] - times[0]
+        control = Control(
+            tolerance,
+            3 if smooth else 2,
+            film.strength / units.pressure,
+            min(_FIRST, _FIRST_IN_UNITS / span),
+        )
         track = follow(moved, state, times, control, every_step=True, until=phase.until / units.gap)
         state = track.states[-1]
         ends.append(_end_time(track, phase.until / units.gap))
@@ -383,6 +408,10 @@ def _profile(gap: WetGap, state: State, units: _Units) -> Profile:
         now.solid * units.pressure,
         np.minimum(now.content / h, 1.0),
     )
+
+
+def _extrapolated(name: str, coarse: Mapping[str, Array], fine: Mapping[str, Array]) -> Array:
+    return fine[name] if name in _OF_ONE_MESH else _richardson(coarse[name], fine[name])
 
 
 def _richardson(coarse: Array | float, fine: Array | float) -> Array:

@@ -1,4 +1,4 @@
-r"""Film, solid contact and motion of two deforming bodies as one system :math:`\dot Q + R = 0`.
+r"""Film, solid contact and motion of two deforming bodies as equations :math:`\dot Q + R = 0`.
 
 In units in which the viscosity is 1, with the radius x, the film pressure p, the pressure of the
 solids p_c where they touch, the gap h and the liquid per area m:
