@@ -11,6 +11,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from attrs import evolve
 
 from ..accuracy import Accuracy
 from ..adhesion import maugis_dugdale
@@ -47,6 +48,7 @@ __all__ = [
     "adhesive_sphere",
     "coupled",
     "curve",
+    "hertzian",
     "history",
     "lines",
     "methods",
@@ -101,6 +103,24 @@ def methods() -> list[Point]:
     scene, accuracy = rough_steel(HalfSpace()), Accuracy(grid=256)
     swept = solver_sweep(scene, accuracy, lambda done: None, clock=time.process_time)
     return list(swept.points)
+
+
+def hertzian() -> list[Point]:
+    """Maximum pressure, approach and contact radius of a sphere against Hertz, over the grid."""
+    points = []
+    for pixels in (8, 16, 32, 64, 128):
+        made = _scene(Pressing(force=LOAD))
+        window = Window(width=2.5 * HERTZ.contact_radius, periodic=False)
+        found = _solved(evolve(made, window=window), int(2.5 * pixels))
+        errors = {
+            "maximum pressure": found.max_pressure / HERTZ.peak_pressure,
+            "approach": found.approach / HERTZ.approach,
+            "contact radius": math.sqrt(found.contact_area / math.pi) / HERTZ.contact_radius,
+        }
+        cost = found.work.seconds, found.work.n_operator_applications
+        label = f"{pixels} pixels"
+        points += [_point(name, label, abs(r - 1.0), *cost) for name, r in errors.items()]
+    return points
 
 
 def slip() -> list[Point]:

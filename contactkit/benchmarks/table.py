@@ -136,6 +136,14 @@ _ALL = (
         is_timed=True,
     ),
     AccuracyStudy(
+        name="hertz",
+        title="Isolated sphere on a half-space, over the pixels to its contact radius",
+        quantity="maximum pressure, approach and contact radius",
+        judge="Hertz; the contact radius follows from the pixel count",
+        solvers=("solve",),
+        measured_by="benchmarks.contact_studies:hertzian",
+    ),
+    AccuracyStudy(
         name="slip",
         title="Partial slip of a sphere: displacement at 0.6 of full sliding",
         quantity="displacement",

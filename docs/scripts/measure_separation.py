@@ -1,91 +1,44 @@
-"""Measure the numbers of the separation on docs/accuracy.md and docs/injector.md, and print them.
+"""Meniscus laws and FMUs on docs/accuracy.md: ``measure_separation.py [NAME ...] --write``.
 
-Run it as ``python docs/scripts/measure.py``; it takes about half a minute and writes nothing.
+Half a minute.
 """
 
 from __future__ import annotations
 
-import json
 import math
+import sys
+import tempfile
 import time
-from collections.abc import Callable, Sequence
+import warnings
+from collections.abc import Callable, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from attrs import evolve
+from measured_blocks import measure
 
 import contactkit as ck
+from contactkit.benchmarks.releases import release_cases
+from contactkit.benchmarks.timing import best_of, cpu_seconds
 from contactkit.capillary.exact import pressure_branch as bridge_film
 from contactkit.capillary.exact import stability as bridge_limit
 from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure
 from contactkit.capillary.flats import family as flat_family
 from contactkit.capillary.flats import force_law as flat_law
 from contactkit.fmu.framework.instance import Instance
+from contactkit.fmu.python.build import build
 from contactkit.fmu.slaves.stiction_mass import MeniscusLaw
 
-CASES = json.loads(
-    (Path(__file__).parents[2] / "tests" / "data" / "release.json").read_text("utf-8")
-)
-TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
+CASES = release_cases()
 
 
-def scene(case: dict[str, Any]) -> ck.SeparationScene:
-    """Scene of a release case."""
-    oil = ck.Liquid(name="oil", viscosity=case["eta"], surface_tension=case["gamma"])
-    face, theta = ck.Flat(radius=case["R"]), case["theta"]
-    film = ck.Meniscus(
-        liquid=oil,
-        volume=case["V"] or None,
-        contact_angle_lower=theta,
-        contact_angle_upper=theta,
-    )
-    loading = ck.ImposedForce(
-        initial_gap=case["h0"],
-        final_gap=case["h_rel"],
-        force=case["F0"],
-        mass=case["m"],
-        stiffness=case["k_s"],
-        rise_time=case["tau"],
-    )
-    limit = (
-        (ck.TensionLimit(strength=case["dp_cav"], cavity="truncated"),) if case["dp_cav"] else ()
-    )
-    return ck.SeparationScene(
-        interface=ck.Interface(lower=face, upper=face, meniscus=film),
-        loading=loading,
-        effects=(
-            ck.MeniscusForce(profile=ck.AsPublished(radius="disc")),
-            ck.ViscousForce(),
-            *limit,
-        ),
-    )
-
-
-def best_of(run: Callable[[], Any], repeats: int = 5) -> tuple[Any, float]:
-    """Result of a run, and the best of its times [s]."""
-    found, seconds = run(), math.inf
-    for _ in range(repeats):
-        begun = time.perf_counter()
-        run()
-        seconds = min(seconds, time.perf_counter() - begun)
-    return found, seconds
-
-
-def release_table() -> str:
-    """Relative error of the release time, over the tolerance of a step of time."""
-    lines = [
-        "| case | tolerance | error of the release time | steps | time [ms] |",
-        "|---|---|---|---|---|",
-    ]
-    for name, entry in CASES.items():
-        for rtol in TOLERANCES:
-            made = ck.plan(scene(entry["case"]), ck.Accuracy(time_rtol=rtol))
-            result, seconds = best_of(lambda made=made: ck.simulate(made))
-            error = abs(result.state.release_time / entry["values"]["t_rel"] - 1.0)
-            steps = result.work.n_steps
-            lines.append(f"| {name} | {rtol:.0e} | {error:.0e} | {steps} | {seconds * 1e3:.1f} |")
-    return "\n".join(lines)
+@cache
+def stiction_mass() -> Path:
+    """The FMU, built once."""
+    folder = Path(tempfile.mkdtemp(prefix="contactkit-"))
+    return build("stiction-mass", folder / "stiction-mass.fmu")
 
 
 def fmu_values(case: dict[str, Any]) -> dict[str, float]:
@@ -112,8 +65,9 @@ def fmu_release(fmu: Path, case: dict[str, Any], stop: float, n: int) -> float:
         return one.get(one.references("t_release"))[0]
 
 
-def fmu_table(fmu: Path, counts: Sequence[int] = (1, 10, 100, 1000, 10000)) -> str:
+def fmu_table() -> str:
     """Relative error of the release time that the FMU finds, over communication steps."""
+    fmu, counts = stiction_mass(), (1, 10, 100, 1000, 10000)
     head = " | ".join(f"{n} steps" if n > 1 else "1 step" for n in counts)
     lines = [f"| case | {head} |", "|---" * (len(counts) + 1) + "|"]
     for name, entry in CASES.items():
@@ -124,8 +78,9 @@ def fmu_table(fmu: Path, counts: Sequence[int] = (1, 10, 100, 1000, 10000)) -> s
     return "\n".join(lines)
 
 
-def step_cost(fmu: Path) -> str:
+def step_cost() -> str:
     """Time of one exchange (set two inputs, doStep, get two outputs), by state of the film."""
+    fmu = stiction_mass()
     lines = ["| state of the film | set 2, doStep, get 2 [us] |", "|---|---|"]
     base = fmu_values(CASES["B"]["case"])
     # h0 just below h_break: the film breaks in the first steps, then the mass moves freely.
@@ -141,11 +96,11 @@ def step_cost(fmu: Path) -> str:
             inputs, motion = one.references("F_ext", "dF_ext"), one.references("h", "v")
             at, seconds = 0.0, []
             for _ in range(n):
-                begun = time.perf_counter()
+                begun = time.process_time()
                 one.set(inputs, [force, 0.0])
                 one.step(at, length)
                 one.get(motion)
-                seconds.append(time.perf_counter() - begun)
+                seconds.append(time.process_time() - begun)
                 at += length
         lines.append(f"| {label} | {sorted(seconds)[n // 2] * 1e6:.0f} |")
     return "\n".join(lines)
@@ -188,25 +143,15 @@ def _solved(scene: ck.SeparationScene, gaps: Any) -> Any:
     interface, meniscus = scene.interface, scene.interface.meniscus
     tension = meniscus.liquid.at(scene.temperature).surface_tension
     assert tension is not None
+    pressure = meniscus.pressure_at(scene.temperature)
     shape = (
         meniscus.contact_angle_lower,
         meniscus.contact_angle_upper,
-        interface.lower.curvature,
-        interface.upper.curvature,
+        *interface.curvatures,
     )
-    if meniscus.pressure is not None:
-        return tension * bridge_at_pressure(gaps, meniscus.pressure / tension, *shape).force
+    if pressure is not None:
+        return tension * bridge_at_pressure(gaps, pressure / tension, *shape).force
     return tension * bridge(gaps, meniscus.volume, *shape).force
-
-
-def _cpu_seconds(run: Callable[[], Any], repeats: int = 3) -> float:
-    """Least CPU time of a run [s]."""
-    best = math.inf
-    for _ in range(repeats):
-        begun = time.process_time()
-        run()
-        best = min(best, time.process_time() - begun)
-    return best
 
 
 def _law_row(name: str, scene: ck.SeparationScene, profile: str) -> str:
@@ -217,11 +162,11 @@ def _law_row(name: str, scene: ck.SeparationScene, profile: str) -> str:
         _clear_caches()
         return ck.plan(one)
 
-    made = _cpu_seconds(make)
+    made = best_of(make)[1]
     law = ck.plan(one).film.laws[ck.MeniscusForce]
     gaps = np.geomspace(5e-10, 0.999 * min(law.end, 1e-7), 200)
     listed = gaps.tolist()
-    called = _cpu_seconds(lambda: [law.force(gap, 0.0) for gap in listed], 20) / len(gaps)
+    called = cpu_seconds(lambda: [law.force(gap, 0.0) for gap in listed]) / len(gaps)
     error = "-"
     if profile == "exact" and not law.kinks:
         found = np.array([law.force(gap, 0.0) for gap in listed])
@@ -236,7 +181,18 @@ def law_table() -> str:
         "|---|---|---|---|---|",
     ]
     for name, scene in meniscus_scenes().items():
-        at_pressure = scene.interface.meniscus.pressure is not None
+        at_pressure = scene.interface.meniscus.has_pressure
         profiles = ("exact",) if at_pressure else ("exact", "arc")
         lines += [_law_row(name, scene, profile) for profile in profiles]
     return "\n".join(lines)
+
+
+TABLES: Mapping[str, Callable[[], str]] = {
+    "laws": law_table,
+    "fmu": fmu_table,
+    "exchange": step_cost,
+}
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore", ck.ValidityWarning)
+    sys.exit(measure(TABLES, "separation "))

@@ -1,16 +1,9 @@
-"""Release, closing and refilling of the fuel injector: ``measure_injector.py --write``.
-
-Blocks of docs/injector.md, by the monolithic model. Names select some; half a minute.
-"""
+"""Release, closing and refilling of the fuel injector by the monolithic model."""
 
 from __future__ import annotations
 
 import math
-import sys
-import warnings
-from collections.abc import Callable, Mapping
 
-from measured_blocks import measure
 from validation_tables import grid
 
 import contactkit as ck
@@ -122,16 +115,3 @@ def refilling_table() -> str:
         rows.append([degrees, f"{viscosity:.3g}", *(f"{time * 1e3:.3g}" for time in times)])
     head = ["temperature", "viscosity [Pa.s]", "cavity of vapour [ms]", "sustains 10 bar [ms]"]
     return grid(head, rows)
-
-
-TABLES: Mapping[str, Callable[[], str]] = {
-    "oils": oils_table,
-    "strengths": strength_table,
-    "cavities": cavity_table,
-    "closing": closing_table,
-    "refilling": refilling_table,
-}
-
-if __name__ == "__main__":
-    warnings.simplefilter("ignore", ck.ValidityWarning)
-    sys.exit(measure(TABLES, "injector "))
