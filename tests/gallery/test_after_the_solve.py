@@ -71,7 +71,7 @@ def slip(coefficient, *, displacement):
 
 
 def test_stress_below_partial_slip_goes_from_no_friction_to_sliding(solved):
-    """Sliding everywhere it is that of `FrictionTraction`; in between the surface carries its part."""
+    """Sliding everywhere it is that of `FrictionTraction`, before that a part of it."""
     coefficient = 0.3
     effects = ck.SubsurfaceStress(depths=(0.0, 5e-6), keep="planes", reading="uniform")
     slid, held = (

@@ -210,8 +210,17 @@ def test_the_documentation_shows_every_page():
             assert 0 < (shown / picture).stat().st_size < 150_000
 
 
+LONG = ("chapter_2", "measured")  # minutes; the quick pages of `measured` are in tests/references
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("chapter", sorted({script.chapter for script in scripts()}))
+@pytest.mark.parametrize(
+    "chapter",
+    [
+        pytest.param(chapter, marks=[pytest.mark.exhaustive] * (chapter in LONG))
+        for chapter in sorted({script.chapter for script in scripts()})
+    ],
+)
 def test_every_page_holds_at_draft_sizes(chapter, tmp_path, capsys):
     status = main(["gallery", chapter, "--out", str(tmp_path / "gallery"), "--quick"])
     assert status == 0, capsys.readouterr().out

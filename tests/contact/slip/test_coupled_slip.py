@@ -198,7 +198,7 @@ def test_the_number_of_pressing_steps_follows_from_the_tolerance(monkeypatch, rt
     assert found.error == pytest.approx(0.3 / steps)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_the_stated_error_of_pressing_is_no_less_than_the_true_one():
     for mu, nu in ((0.1, 0.45), (0.3, 0.3)):
         result, part = pressed(nu=nu, coefficient=mu, grid=32, pressing_rtol=0.03)
