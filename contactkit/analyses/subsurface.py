@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 from attrs import evolve
 
-from ..contact.effects.base import Contact
+from ..contact.effects.base import SolvedContact
 from ..contact.effects.friction import FrictionTraction
 from ..contact.effects.stress import StressPart, SubsurfaceStress
 from ..contact.result import ContactResult
@@ -106,7 +106,9 @@ def stress_below(
     if lacking := [item for one in new for item in one.lacks(scene)]:
         raise PlanError(f"stress_below needs {'; '.join(lacking)}")
     threads = plan.accuracy.threads
-    contact = Contact(scene, plan.grid, result.pressure, result.displacement, result.gap, threads)
+    contact = SolvedContact(
+        scene, plan.grid, result.pressure, result.displacement, result.gap, threads
+    )
     return effect.observe(contact)
 
 

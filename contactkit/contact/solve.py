@@ -13,7 +13,7 @@ from ..errors import ConvergenceError, DescriptionError, InfeasibleError
 from ..frozen import FrozenDict
 from ..scene.plan import check_plan
 from ..validity import warn
-from .effects.base import AttractedContact, Attraction, Contact, LoadTerm, effects_of
+from .effects.base import AttractedContact, Attraction, LoadTerm, SolvedContact, effects_of
 from .effects.partial_slip import PartialSlip
 from .effects.plastic_history import PlasticHistory
 from .effects.plasticity import HardnessLimit
@@ -174,7 +174,7 @@ def _observed(plan: ContactPlan, solved: Solved, counter: WorkCounter) -> Solved
     return solved._replace(parts=parts)
 
 
-def _check_fits(plan: ContactPlan, contact: Contact, energy: float) -> None:
+def _check_fits(plan: ContactPlan, contact: SolvedContact, energy: float) -> None:
     """Refuse a contact whose numbers left the range of a computer's on the way."""
     load = plan.mean_pressure
     is_lost = load is not None and load > 0.0 and not contact.pressure.any()

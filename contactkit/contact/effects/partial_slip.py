@@ -24,7 +24,7 @@ from ...validators import (
 )
 from ...validity import ValidityNumber
 from ..slip.states import PartialSlipPart, SlipCoupling, Zone
-from .base import Array, Contact, LoadHistory, Observer, Scalar
+from .base import Array, LoadHistory, Observer, Scalar, SolvedContact
 from .elasticity import bodies_of, contact_modulus, layers_of
 from .friction import FrictionTraction
 
@@ -310,7 +310,7 @@ class PartialSlip(Observer[PartialSlipPart]):
             )
         return missing
 
-    def observe(self, contact: Contact) -> PartialSlipPart:
+    def observe(self, contact: SolvedContact) -> PartialSlipPart:
         """See `Observer.observe`."""
         from ..slip.load_path import follow
 
@@ -319,7 +319,7 @@ class PartialSlip(Observer[PartialSlipPart]):
         return follow(pressure, contact.grid, stacks, self.path, self.law, contact.threads)
 
     def validity(
-        self, contact: Contact, part: PartialSlipPart | None
+        self, contact: SolvedContact, part: PartialSlipPart | None
     ) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         interface = contact.scene.interface
@@ -371,7 +371,7 @@ class PartialSlip(Observer[PartialSlipPart]):
             )
         return tuple(found)
 
-    def _left_out(self, contact: Contact, part: PartialSlipPart | None) -> ValidityNumber:
+    def _left_out(self, contact: SolvedContact, part: PartialSlipPart | None) -> ValidityNumber:
         return ValidityNumber(
             name="normal and tangential coupling left out",
             value=None if part is None else _coupling(contact, part),
@@ -391,7 +391,7 @@ def _surfaces(interface: Interface) -> list[tuple[float, float]]:
     ]
 
 
-def _coupling(contact: Contact, part: PartialSlipPart) -> float:
+def _coupling(contact: SolvedContact, part: PartialSlipPart) -> float:
     """Range of the normal displacement by the largest tractions over that by pressure [-]."""
     import numpy as np
 
@@ -408,7 +408,7 @@ def _coupling(contact: Contact, part: PartialSlipPart) -> float:
     return relative_coupling(caused, contact.displacement, strain * contact.grid.area**0.5)
 
 
-def _slip_width(contact: Contact, part: PartialSlipPart, coefficient: float) -> float | None:
+def _slip_width(contact: SolvedContact, part: PartialSlipPart, coefficient: float) -> float | None:
     """Least width of the slip between what sticks and the edges of contact, in pixels.
 
     Twice its pixels over those along its edges. None if nothing sticks, if the force is too small

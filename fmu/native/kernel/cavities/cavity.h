@@ -6,7 +6,7 @@
 #ifndef CK_CAVITY_H
 #define CK_CAVITY_H
 
-#define CK_PIECES 64 /* pieces of the history that are kept */
+#define CK_RUPTURE_PIECES 64 /* pieces of the history that are kept */
 
 enum { CK_FULL = 0, CK_RECEDING = 1, CK_RETURNING = 2 };
 
@@ -14,14 +14,14 @@ enum { CK_FULL = 0, CK_RECEDING = 1, CK_RETURNING = 2 };
    to 1, and the liquid within where it begins. */
 typedef struct {
     double y[4], h[4], before;
-} ck_piece;
+} ck_rupture_piece;
 
 /* Cavity in one film: void, fraction of the disc within the edge, the largest void since it was full,
    and the rupture history from the centre outwards. */
 typedef struct {
     double hollow, fraction, largest;
     int phase, count;
-    ck_piece history[CK_PIECES];
+    ck_rupture_piece history[CK_RUPTURE_PIECES];
 } ck_cavity;
 
 /* One film, its tensile strength while it is full, as a drop of pressure, 0 if it does not
@@ -62,8 +62,8 @@ double ck_history_liquid(const ck_cavity *cavity);    /* within the outermost ed
 double ck_history_outermost(const ck_cavity *cavity); /* square of its radius */
 double ck_history_edge(const ck_cavity *cavity, double gap, double hollow, double *rupture_gap);
 void ck_history_cut(ck_cavity *cavity, double gap, double hollow);
-void ck_history_add(ck_cavity *cavity, const ck_piece *piece);
-void ck_history_along(ck_piece *piece, double before, const double squares[4],
+void ck_history_add(ck_cavity *cavity, const ck_rupture_piece *piece);
+void ck_history_along(ck_rupture_piece *piece, double before, const double squares[4],
                    const double gaps[4]);
 
 /* Edge and forces (cavity.c). */

@@ -31,7 +31,7 @@ static double nothing(const ck_cavity_law *law, const ck_cavity *cavity, double 
     return (cavity->largest < SHALLOW * film ? NOTHING : REFORMED) * film;
 }
 
-static void constant_piece(ck_piece *piece, double low, double high, double gap, double before) {
+static void constant_piece(ck_rupture_piece *piece, double low, double high, double gap, double before) {
     memset(piece, 0, sizeof *piece);
     piece->y[0] = low, piece->y[1] = high - low, piece->h[0] = gap, piece->before = before;
 }
@@ -70,7 +70,7 @@ void ck_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck
         return;
     }
     if (cavity->phase == CK_RECEDING) {
-        ck_piece piece;
+        ck_rupture_piece piece;
         double squares[4], first, final;
         squares_of(cavity, solved, squares);
         ck_history_along(&piece, 0.0, squares, none);
@@ -99,7 +99,7 @@ void ck_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap
                     const double gaps[3]) {
     if (cavity->phase == CK_RECEDING) {
         double squares[4], all[4] = {begin_gap, gaps[0], gaps[1], gaps[2]};
-        ck_piece piece;
+        ck_rupture_piece piece;
         squares_of(cavity, solved, squares);
         ck_history_along(&piece, ck_history_liquid(cavity), squares, all);
         ck_history_add(cavity, &piece);
@@ -127,7 +127,7 @@ void ck_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
 void ck_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
     double ignored, rim, fraction, here;
     int recedes = cavity->phase == CK_RECEDING;
-    ck_piece jump;
+    ck_rupture_piece jump;
     if (cavity->phase == CK_FULL) {
         if (ck_is_inception(law, cavity, at)) inception(law, cavity, at);
         return;
