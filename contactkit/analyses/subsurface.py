@@ -10,9 +10,9 @@ from attrs import evolve
 
 from ..contact.effects.base import (
     Attraction,
-    Contact,
     ContactEffect,
     DisplacementTerm,
+    SolvedContact,
     SurfaceTraction,
     effects_of,
 )
@@ -111,7 +111,7 @@ def stress_below(
     effect = effect if effect is not None else SubsurfaceStress()
     scene = _scene_of(result, effect, friction)
     plan, attraction = result.plan, scene.effect(Attraction)
-    contact = Contact(
+    contact = SolvedContact(
         scene,
         plan.grid,
         result.pressure,

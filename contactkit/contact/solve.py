@@ -16,8 +16,8 @@ from ..validity import warn
 from .effects.base import (
     AttractedContact,
     Attraction,
-    Contact,
     LoadTerm,
+    SolvedContact,
     SurfaceTraction,
     effects_of,
 )
@@ -184,7 +184,7 @@ def _observed(plan: ContactPlan, solved: Solved, counter: WorkCounter) -> Solved
     return solved._replace(contact=contact, parts=parts)
 
 
-def _check_fits(plan: ContactPlan, contact: Contact, energy: float) -> None:
+def _check_fits(plan: ContactPlan, contact: SolvedContact, energy: float) -> None:
     """Refuse a contact whose numbers left the range of a computer's on the way."""
     load = plan.mean_pressure
     is_lost = load is not None and load > 0.0 and not contact.pressure.any()

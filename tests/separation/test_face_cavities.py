@@ -59,7 +59,7 @@ def test_two_pressures_release_nearly_as_a_dry_face():
     result = ck.simulate(ck.plan(scene(NOTCHED, limit), ROUGHLY))
     assert result.status == "released"
     assert result.state.release_time == pytest.approx(0.1473e-3, rel=4e-3)
-    assert result.state.n_tears == 1
+    assert result.state.n_inceptions == 1
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ from attrs import field, frozen
 
 from ...units import si
 from ...validators import finite, friction_coefficient
-from .base import Array, Contact, DisplacementTerm, FrictionalContact, Scalar, SurfaceTraction
+from .base import Array, DisplacementTerm, FrictionalContact, Scalar, SolvedContact, SurfaceTraction
 from .elasticity import bodies_of
 
 if TYPE_CHECKING:
@@ -108,7 +108,7 @@ class FrictionTraction(SurfaceTraction[FrictionPart]):
             return ("RigidBase(bonded=True): nothing holds a body that slides on its base",)
         return ()
 
-    def observe(self, contact: Contact) -> FrictionPart:
+    def observe(self, contact: SolvedContact) -> FrictionPart:
         """See `Observer.observe`."""
         ratio, pressure = self.components(), contact.contact_pressure
         load = float(pressure.sum()) * contact.grid.pixel_area
@@ -161,7 +161,9 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
 
         return displacement
 
-    def observe_frictional(self, contact: Contact, frictional: FrictionalContact) -> CouplingPart:
+    def observe_frictional(
+        self, contact: SolvedContact, frictional: FrictionalContact
+    ) -> CouplingPart:
         """See `DisplacementTerm.observe_frictional`: against the same load without coupling."""
         without = frictional.pressure_without
         maximum = max(float(without.max()), sys.float_info.min)

@@ -24,7 +24,7 @@ from ...validators import (
 )
 from ...validity import ValidityNumber
 from ..slip.states import PartialSlipPart, SlipCoupling, Zone
-from .base import Array, Contact, LoadHistory, Scalar, SurfaceTraction
+from .base import Array, LoadHistory, Scalar, SolvedContact, SurfaceTraction
 from .elasticity import bodies_of, contact_modulus, layers_of
 
 if TYPE_CHECKING:
@@ -300,7 +300,7 @@ class PartialSlip(SurfaceTraction[PartialSlipPart]):
             )
         return missing
 
-    def observe(self, contact: Contact) -> PartialSlipPart:
+    def observe(self, contact: SolvedContact) -> PartialSlipPart:
         """See `Observer.observe`."""
         from ..slip.load_path import follow
 
@@ -313,7 +313,7 @@ class PartialSlip(SurfaceTraction[PartialSlipPart]):
         return part.traction_x[-1], part.traction_y[-1]
 
     def validity(
-        self, contact: Contact, part: PartialSlipPart | None
+        self, contact: SolvedContact, part: PartialSlipPart | None
     ) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         interface = contact.scene.interface
@@ -365,7 +365,7 @@ class PartialSlip(SurfaceTraction[PartialSlipPart]):
             )
         return tuple(found)
 
-    def _left_out(self, contact: Contact, part: PartialSlipPart | None) -> ValidityNumber:
+    def _left_out(self, contact: SolvedContact, part: PartialSlipPart | None) -> ValidityNumber:
         return ValidityNumber(
             name="normal and tangential coupling left out",
             value=None if part is None else _coupling(contact, part),
@@ -385,7 +385,7 @@ def _surfaces(interface: Interface) -> list[tuple[float, float]]:
     ]
 
 
-def _coupling(contact: Contact, part: PartialSlipPart) -> float:
+def _coupling(contact: SolvedContact, part: PartialSlipPart) -> float:
     """Range of the normal displacement by the largest tractions over that by pressure [-]."""
     import numpy as np
 
@@ -402,7 +402,7 @@ def _coupling(contact: Contact, part: PartialSlipPart) -> float:
     return relative_coupling(caused, contact.displacement, strain * contact.grid.area**0.5)
 
 
-def _slip_width(contact: Contact, part: PartialSlipPart, coefficient: float) -> float | None:
+def _slip_width(contact: SolvedContact, part: PartialSlipPart, coefficient: float) -> float | None:
     """Least width of the slip between what sticks and the edges of contact, in pixels.
 
     Twice its pixels over those along its edges. None if nothing sticks, if the force is too small

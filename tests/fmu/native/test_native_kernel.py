@@ -224,9 +224,9 @@ QUICK = ("rewetting", "sphere", "shear", "rough")
 
 def test_a_cavity_on_a_face_that_is_no_disc_has_no_native_form():
     ring = SCENES["ring"]
-    torn = attrs.evolve(ring, effects=(*ring.effects, ck.TensionLimit()))
+    cavitated = attrs.evolve(ring, effects=(*ring.effects, ck.TensionLimit()))
     with pytest.raises(ck.PlanError, match=r"TensionLimit has no native form.*ck\.simulate"):
-        prepared_film(moving(torn, None))
+        prepared_film(moving(cavitated, None))
 
 
 @pytest.mark.parametrize("name", quick(MOTIONS, *map([*MOTIONS].index, QUICK)))
