@@ -1,8 +1,9 @@
 """Communication steps of the injector and their errors: blocks of docs/hosts.md and docs/fmu.md.
 
 A minute, and a C compiler. The reference shares no code with the FMUs: coil, spring and a film that
-cavitates are written down again below and solved by `scipy.integrate.solve_ivp` (Radau, 1e-10). Each
-coupling is a loop over the two native FMUs as `contactkit fmu system fuel-injector` connects them.
+cavitates are written down again below and solved by `scipy.integrate.solve_ivp` (Radau, 1e-10).
+Each coupling is a loop over the two native FMUs as `contactkit fmu system fuel-injector` connects
+them.
 """
 
 from __future__ import annotations
