@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # compile numpy again.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: typed demo test test-all release-check lint bench bench-own peers pages docs format clean
+.PHONY: typed demo test test-all test-release release-check lint bench bench-own peers pages docs format clean
 
 $(VENV)/.made:
 	$(PYTHON) -m venv $(VENV)
@@ -22,16 +22,22 @@ $(VENV)/.%: $(VENV)/.made pyproject.toml
 demo: $(VENV)/.all
 	$(BIN)/contactkit run fuel-injector --out out/fuel-injector --overwrite
 
-# The same every time and on every machine; what takes long, or explores at random, comes after.
+# The same every time and on every machine.
+PYTEST = $(BIN)/python -m pytest --numprocesses auto --dist worksteal
 test: $(VENV)/.test
-	$(BIN)/python -m pytest --numprocesses auto --dist worksteal
+	$(PYTEST)
 
-# SEED=... repeats what a run explored.
-SEED ?= $(shell date +%Y%m%d)
+# And what takes long: the same every time too.
 test-all: test $(VENV)/.test-all
+	$(PYTEST) -m "slow and not exhaustive" --durations 25
+
+# Before a release, half an hour: every case of the sweeps of which test-all runs some, then random
+# examples. SEED=... repeats what a run explored.
+SEED ?= $(shell date +%Y%m%d)
+test-release: $(VENV)/.test-all
+	$(PYTEST) -m exhaustive
 	@echo "random examples from SEED=$(SEED)"
-	$(BIN)/python -m pytest --numprocesses auto --dist worksteal -m "slow or hypothesis" \
-		--hypothesis-profile=random --hypothesis-seed=$(SEED)
+	$(PYTEST) -m hypothesis --hypothesis-profile=random --hypothesis-seed=$(SEED)
 
 # Everything against other programs, some minutes, one table; `make pages PAGES=peers` puts it
 # into docs/demands. Larger maps:

@@ -18,13 +18,13 @@ Examples
 separation: speed imposed, gap 5e-06 m to 2.5e-05 m
   on   meniscus-force      capillary force of the meniscus (profile='exact')
   on   viscous-force       viscous force of the film (Reynolds) (closure='volume-conserving')
-  on   tension-limit       the liquid tears at a tension and leaves a cavity (strength=1000000.0, ambient_pressure=101325.0, cavity='mass-conserving')
+  on   tension-limit       the liquid cavitates at a tension and leaves a cavity (strength=1000000.0, ambient_pressure=101325.0, cavity='mass-conserving')
   off  shear-limit         wall shear stress bounded by a limiting shear strength
   off  rupture             the film breaks at a gap
   off  van-der-waals-force van der Waals attraction of the solids
   off  adhesive-contact    adhesion of a sphere that has touched
   off  asperity-menisci    menisci at the summits of a rough face
-  the liquid tears 10 bar below ambient, a cavity is 1.01325 bar below it
+  the liquid cavitates 10 bar below ambient, a cavity is 1.01325 bar below it
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from contactkit.benchmarks import releases
 DATA = Path(__file__).parent / "data"
 
 # The same few examples every time, and no clock: a busy machine is no failure. With
-# --hypothesis-profile=random and a seed, as `make test-all` has it, more and others each time.
+# --hypothesis-profile=random and a seed, as `make test-release` has it, more and others each time.
 UNTIMED = {
     "deadline": None,
     "suppress_health_check": [HealthCheck.too_slow, HealthCheck.filter_too_much],
@@ -25,6 +25,13 @@ UNTIMED = {
 settings.register_profile("repeatable", derandomize=True, max_examples=10, **UNTIMED)
 settings.register_profile("random", database=None, print_blob=True, **UNTIMED)
 settings.load_profile("repeatable")
+
+
+def pytest_collection_modifyitems(items):
+    """What is exhaustive is slow; first, before the marks are looked at."""
+    for item in items:
+        if item.get_closest_marker("exhaustive"):
+            item.add_marker("slow")
 
 
 def pytest_collection_finish():

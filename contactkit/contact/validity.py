@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..validity import ValidityNumber
-from .effects.base import Contact, ContactEffect, effects_of
+from .effects.base import ContactEffect, SolvedContact, effects_of
 from .effects.elasticity import contact_modulus
 from .pixel_edges import pixel_edges
 from .plausible import FLATTEST, LIGHTEST_PEAK, check_sizes, is_even
@@ -36,13 +36,13 @@ _LINES = 64
 
 
 def check_contact(
-    contact: Contact, heights: Map, parts: Mapping[type[ContactEffect[Any]], object]
+    contact: SolvedContact, heights: Map, parts: Mapping[type[ContactEffect[Any]], object]
 ) -> tuple[ValidityNumber, ...]:
     """Evaluate the numbers of a solved contact: its own, then those of its effects.
 
     Parameters
     ----------
-    contact : Contact
+    contact : SolvedContact
         The solved contact.
     heights : ndarray (ny, nx)
         Heights of both bodies together [m].
@@ -67,7 +67,7 @@ def check_contact(
     return (*found, *own)
 
 
-def _pixels_per_wave(contact: Contact) -> ValidityNumber:
+def _pixels_per_wave(contact: SolvedContact) -> ValidityNumber:
     bodies = contact.scene.interface.bodies
     waves = [wave for body in bodies for wave in body.surface.shortest_waves(contact.grid)]
     shortest = min(waves, key=lambda wave: wave.length / wave.pixel, default=None)
@@ -83,7 +83,7 @@ def _pixels_per_wave(contact: Contact) -> ValidityNumber:
     )
 
 
-def _pixels_per_spot(contact: Contact) -> ValidityNumber:
+def _pixels_per_spot(contact: SolvedContact) -> ValidityNumber:
     """Diameter of discs with the same ratio of area to length of edge, or width, in pixels."""
     touching = contact.touching
     area, edges = int(touching.sum()), pixel_edges(touching, contact.grid.edges)
@@ -140,7 +140,7 @@ def _through(touching: NDArray[np.bool_], axis: str, edges: Edges) -> float | No
     return 2.0 * int(strip.sum()) / crossed if crossed else None
 
 
-def _peak_pressure(contact: Contact, even: bool) -> ValidityNumber:
+def _peak_pressure(contact: SolvedContact, even: bool) -> ValidityNumber:
     modulus, peak = contact_modulus(contact.scene), float(contact.pressure.max())
     # Under attraction, or between even faces, the lightest pressures are possible.
     any_low = even or peak <= 0.0 or contact.attracted is not None
@@ -177,7 +177,7 @@ def _steps(heights: Map) -> _Steps:
     return _Steps(np.sqrt(np.concatenate(along_y) / nx), np.sqrt(along_x / ny))
 
 
-def _slope(contact: Contact, steps: _Steps, even: bool) -> ValidityNumber:
+def _slope(contact: SolvedContact, steps: _Steps, even: bool) -> ValidityNumber:
     pairs = zip(steps, contact.grid.pixel_size, strict=True)
     slope = math.hypot(*(math.sqrt(float(np.square(s).mean())) / size for s, size in pairs))
     pixel = max(contact.grid.pixel_size)

@@ -94,7 +94,7 @@ def accuracy() -> str:
     return grid(["planform", *(f"{n} cells" for n in SIZES)], rows)
 
 
-def torn_radius(sigma: float) -> tuple[float, float]:
+def cavitated_radius(sigma: float) -> tuple[float, float]:
     """Cavity radius over R, and force over that of the tension, at sigma times the onset."""
     low, high = 0.0, 1.0
     for _ in range(200):
@@ -109,7 +109,7 @@ def cavity() -> str:
     """Errors of a first opening over sigma, and of long journal bearings over the cells."""
     rows = []
     for sigma in (1.5, 3.0, 30.0, 300.0):
-        _, ratio = torn_radius(sigma)
+        _, ratio = cavitated_radius(sigma)
         exact = ratio * math.pi * R**2 * 1e6
         row, counts = [f"disc, {sigma:g} times the onset"], []
         for n in SIZES:

@@ -245,9 +245,9 @@ def test_a_member_is_read_within_a_limit(small):
             "have at most 300 bytes (a.fmu, modelDescription.xml has 400 bytes)",
         )
         refuses(lambda: member(packed, "b", "TEXT_BYTES", "a.fmu"), "a member b")
-    torn = bytearray(data)
-    torn[40:44] = b"\xff" * 4
-    with checked_archive(io.BytesIO(bytes(torn)), "a.fmu") as packed:
+    cavitated = bytearray(data)
+    cavitated[40:44] = b"\xff" * 4
+    with checked_archive(io.BytesIO(bytes(cavitated)), "a.fmu") as packed:
         refuses(lambda: member(packed, "modelDescription.xml", "BYTES", "a.fmu"), "that is whole")
 
 

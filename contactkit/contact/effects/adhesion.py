@@ -10,7 +10,7 @@ from attrs import field, frozen
 from ...validators import part
 from ...validity import ValidityNumber
 from .attraction_laws import AttractionLaw, TensionLaw
-from .base import Array, AttractedContact, Attraction, Contact, Scalar, effects_of
+from .base import Array, AttractedContact, Attraction, Scalar, SolvedContact, effects_of
 from .elasticity import contact_modulus
 
 if TYPE_CHECKING:
@@ -150,7 +150,9 @@ class Adhesion(Attraction[AdhesionPart]):
         """See `Attraction.attracted_of`."""
         return AttractedContact(part.tension, part.is_contact, part.self_influence, part.n_contacts)
 
-    def observe_attracted(self, contact: Contact, attracted: AttractedContact) -> AdhesionPart:
+    def observe_attracted(
+        self, contact: SolvedContact, attracted: AttractedContact
+    ) -> AdhesionPart:
         """See `Attraction.observe_attracted`."""
         import numpy as np
 
@@ -175,7 +177,7 @@ class Adhesion(Attraction[AdhesionPart]):
         )
 
     def _shape(
-        self, contact: Contact, near: NDArray[np.bool_]
+        self, contact: SolvedContact, near: NDArray[np.bool_]
     ) -> tuple[float | None, float | None]:
         """Rms curvature [1/m], and step of a pixel over the range, around what is attracted."""
         from ...roughness.statistics import rms_curvature, rms_slope
@@ -192,7 +194,7 @@ class Adhesion(Attraction[AdhesionPart]):
         step = max(pixel) * rms_slope(heights, pixel, periodic) / self.law.range
         return curvature, step
 
-    def _tabor(self, contact: Contact, curvature: float | None) -> float | None:
+    def _tabor(self, contact: SolvedContact, curvature: float | None) -> float | None:
         from ...adhesion.parameters import tabor_parameter
 
         if not curvature:
@@ -201,7 +203,7 @@ class Adhesion(Attraction[AdhesionPart]):
         modulus = contact_modulus(contact.scene)
         return float(tabor_parameter(radius, law.work_of_adhesion, modulus, law.range))
 
-    def validity(self, contact: Contact, part: AdhesionPart) -> tuple[ValidityNumber, ...]:
+    def validity(self, contact: SolvedContact, part: AdhesionPart) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         cure = self.law.cure_of_trapping(part.trapping_number, _MOST_TRAPPING)
         found = [

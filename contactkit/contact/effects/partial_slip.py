@@ -24,9 +24,8 @@ from ...validators import (
 )
 from ...validity import ValidityNumber
 from ..slip.states import PartialSlipPart, SlipCoupling, Zone
-from .base import Array, Contact, LoadHistory, Observer, Scalar
+from .base import Array, LoadHistory, Scalar, SolvedContact, SurfaceTraction
 from .elasticity import bodies_of, contact_modulus, layers_of
-from .friction import FrictionTraction
 
 if TYPE_CHECKING:
     import numpy as np
@@ -92,7 +91,7 @@ def _last(name: str) -> Any:
 
 
 @frozen(kw_only=True)
-class PartialSlip(Observer[PartialSlipPart]):
+class PartialSlip(SurfaceTraction[PartialSlipPart]):
     r"""Stick and slip of the contact under a tangential load that follows a path.
 
     The pressure is that of contact without friction, and stays: exact for two equal bodies and
@@ -277,15 +276,6 @@ class PartialSlip(Observer[PartialSlipPart]):
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""
         missing = []
-        if scene.effect(FrictionTraction) is not None:
-            missing.append(
-                "a scene without FrictionTraction, which slides everywhere: list one of them"
-            )
-        if any(effect.name == "subsurface-stress" for effect in scene.effects):
-            missing.append(
-                "a scene without SubsurfaceStress, which does not have its traction: list it with "
-                "FrictionTraction for full sliding"
-            )
         turned = [s for s in self.path if s.direction is not None and s.direction != self.direction]
         if self.components == 1 and turned:
             missing.append(
@@ -310,7 +300,7 @@ class PartialSlip(Observer[PartialSlipPart]):
             )
         return missing
 
-    def observe(self, contact: Contact) -> PartialSlipPart:
+    def observe(self, contact: SolvedContact) -> PartialSlipPart:
         """See `Observer.observe`."""
         from ..slip.load_path import follow
 
@@ -318,8 +308,12 @@ class PartialSlip(Observer[PartialSlipPart]):
         pressure = contact.contact_pressure
         return follow(pressure, contact.grid, stacks, self.path, self.law, contact.threads)
 
+    def tractions(self, part: PartialSlipPart) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """See `SurfaceTraction.tractions`: those at the end of the path."""
+        return part.traction_x[-1], part.traction_y[-1]
+
     def validity(
-        self, contact: Contact, part: PartialSlipPart | None
+        self, contact: SolvedContact, part: PartialSlipPart | None
     ) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         interface = contact.scene.interface
@@ -371,7 +365,7 @@ class PartialSlip(Observer[PartialSlipPart]):
             )
         return tuple(found)
 
-    def _left_out(self, contact: Contact, part: PartialSlipPart | None) -> ValidityNumber:
+    def _left_out(self, contact: SolvedContact, part: PartialSlipPart | None) -> ValidityNumber:
         return ValidityNumber(
             name="normal and tangential coupling left out",
             value=None if part is None else _coupling(contact, part),
@@ -391,7 +385,7 @@ def _surfaces(interface: Interface) -> list[tuple[float, float]]:
     ]
 
 
-def _coupling(contact: Contact, part: PartialSlipPart) -> float:
+def _coupling(contact: SolvedContact, part: PartialSlipPart) -> float:
     """Range of the normal displacement by the largest tractions over that by pressure [-]."""
     import numpy as np
 
@@ -408,7 +402,7 @@ def _coupling(contact: Contact, part: PartialSlipPart) -> float:
     return relative_coupling(caused, contact.displacement, strain * contact.grid.area**0.5)
 
 
-def _slip_width(contact: Contact, part: PartialSlipPart, coefficient: float) -> float | None:
+def _slip_width(contact: SolvedContact, part: PartialSlipPart, coefficient: float) -> float | None:
     """Least width of the slip between what sticks and the edges of contact, in pixels.
 
     Twice its pixels over those along its edges. None if nothing sticks, if the force is too small

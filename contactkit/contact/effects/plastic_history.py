@@ -12,7 +12,7 @@ from ...scene.loading import Approach, ContactLoading, Pressing
 from ...units import si
 from ...validators import as_tuple, as_whole, count, non_negative
 from ...validity import ValidityNumber
-from .base import Array, Contact, LoadHistory, PressureBound, Scalar
+from .base import Array, LoadHistory, PressureBound, Scalar, SolvedContact
 
 if TYPE_CHECKING:
     import numpy as np
@@ -194,10 +194,12 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
             *(Approach(approach=one) for one in self.approaches),
         )
 
-    def observe(self, contact: Contact) -> None:
+    def observe(self, contact: SolvedContact) -> None:
         """See `ContactEffect.observe`: the part is made with the solve itself."""
 
-    def validity(self, contact: Contact, part: PlasticHistoryPart) -> tuple[ValidityNumber, ...]:
+    def validity(
+        self, contact: SolvedContact, part: PlasticHistoryPart
+    ) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         is_shared = contact.attracted is not None or contact.frictional is not None
         return (

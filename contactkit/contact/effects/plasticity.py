@@ -13,10 +13,10 @@ from ...validity import ValidityNumber
 from .base import (
     Array,
     BoundedContact,
-    Contact,
     HardnessLaw,
     PressureBound,
     Scalar,
+    SolvedContact,
 )
 from .elasticity import contact_modulus
 from .hardness_rules import ContinuousHardness, HardnessRule, as_rule
@@ -112,7 +112,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
         """See `PressureBound.prepare`."""
         return self.rule.prepare(scene, grid)
 
-    def observe_bounded(self, contact: Contact, bounded: BoundedContact) -> PlasticPart:
+    def observe_bounded(self, contact: SolvedContact, bounded: BoundedContact) -> PlasticPart:
         """See `PressureBound.observe_bounded`: pixels at the hardness."""
         import numpy as np
 
@@ -122,7 +122,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
         overlap = np.where(is_plastic, bounded.overlap, 0.0)
         return PlasticPart(is_plastic, area, bounded.hardness, overlap)
 
-    def validity(self, contact: Contact, part: PlasticPart) -> tuple[ValidityNumber, ...]:
+    def validity(self, contact: SolvedContact, part: PlasticPart) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         touching = int((contact.pressure > 0.0).sum())
         return (
@@ -139,7 +139,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
         )
 
 
-def _relative_hardness(contact: Contact, hardness: Map | float) -> ValidityNumber:
+def _relative_hardness(contact: SolvedContact, hardness: Map | float) -> ValidityNumber:
     """Hardness over E*, the smallest or, where that is too large, the largest."""
     import numpy as np
 

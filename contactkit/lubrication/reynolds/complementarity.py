@@ -1,4 +1,4 @@
-r"""The complementarity problem of a film that tears: P >= 0, s >= 0, P s = 0 in every cell.
+r"""The complementarity problem of a film that cavitates: P >= 0, s >= 0, P s = 0 in every cell.
 
 .. math:: \mathsf L P - \mathsf M s + f = 0, \qquad P = p - p_{cav} \ge 0, \qquad
           s = 1 - \theta \ge 0, \qquad P s = 0
@@ -122,10 +122,10 @@ def _with_set(problem: Problem, full: Set) -> tuple[Array, Array]:
         return q, np.where(full, 0.0, (matrix @ q + f) / problem.storage)
     from scipy.sparse import diags_array
 
-    kept, torn = diags_array(full * 1.0), diags_array(~full * 1.0)
+    kept, cavitated = diags_array(full * 1.0), diags_array(~full * 1.0)
     moved = problem.transport + diags_array(problem.storage)
     # The unknown of a void cell is -s, so that the diagonal is positive.
-    mixed = matrix @ kept + moved @ torn
+    mixed = matrix @ kept + moved @ cavitated
     w = solve_sparse(mixed, -known, problem.solver, is_symmetric=False)
     q[full], void[~full] = w[full], -w[~full]
     return q, void

@@ -10,7 +10,7 @@ from ...errors import ConvergenceError
 from ...numerics.events import EventStep
 from ...numerics.step_size import StepSize
 from ..integrator.tableau import NODES, WEIGHTS
-from .events import first_event, is_torn_by
+from .events import first_event, is_inception
 from .law import Cavitation, SolvedStages
 from .state import Cavity, Phase
 
@@ -88,7 +88,7 @@ def along_path(
     rtol = law.time_rtol(rtol)
     for _ in range(most_steps):
         here = place(time)
-        if is_torn_by(law, cavity, *here):
+        if is_inception(law, cavity, *here):
             cavity = law.after_event(cavity, *here)
             yield PathPoint(time, cavity, 0.0, planned)
         if end - time <= 1e-14 * abs(end):

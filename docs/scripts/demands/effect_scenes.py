@@ -211,7 +211,7 @@ SEPARATIONS: Mapping[type, Entry] = {
         ck.ViscousForce,
     ),
     ck.TensionLimit: _entry(
-        r"p \ge p_{ambient} - \sigma_t \text{ before it tears}, \qquad p \ge p_c "
+        r"p \ge p_{ambient} - \sigma_t \text{ before it cavitates}, \qquad p \ge p_c "
         r"\text{ in the cavity after it}",
         DISC + ", strength of 10 bar",
         disc(VISCOUS, TENSION),

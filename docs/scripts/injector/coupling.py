@@ -1,8 +1,9 @@
 """Communication steps of the injector and their errors: blocks of docs/hosts.md and docs/fmu.md.
 
 A minute, and a C compiler. The reference shares no code with the FMUs: coil, spring and a film that
-tears are written down again below and solved by `scipy.integrate.solve_ivp` (Radau, 1e-10). Each
-coupling is a loop over the two native FMUs as `contactkit fmu system fuel-injector` connects them.
+cavitates are written down again below and solved by `scipy.integrate.solve_ivp` (Radau, 1e-10).
+Each coupling is a loop over the two native FMUs as `contactkit fmu system fuel-injector` connects
+them.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ def numbers() -> dict[str, float]:
 
 
 class Film:
-    """A disc of liquid that tears; edges are squares of radii over that of the disc."""
+    """A disc of liquid that cavitates; edges are squares of radii over that of the disc."""
 
     def __init__(self, p: Mapping[str, float]) -> None:
         self.eta, self.drop, self.square = p["eta"], p["dp_hold"], p["R"] ** 2
@@ -76,7 +77,7 @@ class Film:
         return area * mean, area * speed - inflow
 
 
-class Torn:
+class History:
     """Liquid that the edge has left behind, up to where it was at each time."""
 
     def __init__(self, film: Film, found: Any) -> None:
@@ -86,7 +87,7 @@ class Torn:
         self.span = times[0], times[-1]
         self.edge, slope = CubicSpline(times, edges), CubicSpline(times, edges).derivative()
         self.liquid = CubicSpline(times, gaps * slope(times)).antiderivative()
-        self.first = gaps[0] * edges[0]  # torn at once
+        self.first = gaps[0] * edges[0]  # cavitated at once
         self.area = math.pi * film.square
 
     def void(self, time: float, gap: float) -> float:
@@ -118,7 +119,7 @@ def _solve(rates: Callable[..., Any], begin: float, state: Any, jumps: Any, even
 def reference_release(p: Mapping[str, float]) -> float:
     """Time of the first release [s], by equations written down for this script alone.
 
-    The film tears where its tension reaches the strength. The edge of the cavity runs outwards
+    The film cavitates where its tension reaches the strength. The edge of the cavity runs outwards
     without flow over it, then back over what it has left behind.
     """
     pole = MU0 * p["N_turns"] ** 2 * p["A_pole"]
@@ -166,13 +167,13 @@ def reference_release(p: Mapping[str, float]) -> float:
     found = _solve(receding, found.t[-1], found.y[:, -1], jumps, [released, turns])
     if len(found.t_events[0]):
         return float(found.t[-1])
-    torn = Torn(film, found)
+    history = History(film, found)
 
     def returning(time: float, y: Any) -> list[float]:
-        force, growth = film.ring(y[1], y[2], torn.edge_of(y[3], y[1]))
+        force, growth = film.ring(y[1], y[2], history.edge_of(y[3], y[1]))
         return [*moved(time, y, force), growth]
 
-    void = torn.void(torn.span[1], found.y[1, -1])
+    void = history.void(history.span[1], found.y[1, -1])
     found = _solve(returning, found.t[-1], [*found.y[:, -1], void], jumps, [released])
     return float(found.t[-1])
 

@@ -26,10 +26,10 @@ def oils_table() -> str:
     """Release delay of the injector for each thing that its oil may do."""
     injector = open_scene("fuel-injector").scene
     oils = {
-        "tears at 10 bar, cavity at 0 bar (vapour)": {},
-        "tears at 10 bar, cavity at -4 bar": {"cavity_pressure": -4e5},
-        "tears at 10 bar and goes on to sustain it": {"cavity_pressure": -math.inf},
-        "never tears": {"tears": False},
+        "cavitates at 10 bar, cavity at 0 bar (vapour)": {},
+        "cavitates at 10 bar, cavity at -4 bar": {"cavity_pressure": -4e5},
+        "cavitates at 10 bar and goes on to sustain it": {"cavity_pressure": -math.inf},
+        "never cavitates": {"cavitates": False},
     }
     rows = [
         [
@@ -59,7 +59,7 @@ def strength_table() -> str:
 
 
 def cavity_table() -> str:
-    """Release delay over the pressure in the cavity, of an oil that tears at 10 bar."""
+    """Release delay over the pressure in the cavity, of an oil that cavitates at 10 bar."""
     injector = open_scene("fuel-injector").scene
     rows = [
         [
@@ -93,10 +93,10 @@ def closing_table() -> str:
 def refilling_table() -> str:
     """Time in which a cavity of 0.95 of the face fills while the spool rests at the stop.
 
-    ``3 eta R^2 (h - h_b)/(h^3 dp) x^2 (1 - 2 ln x)``, torn at h_b = 6 um.
+    ``3 eta R^2 (h - h_b)/(h^3 dp) x^2 (1 - 2 ln x)``, cavitated at h_b = 6 um.
     """
     injector = open_scene("fuel-injector").scene
-    rim, gap, torn, x = injector.interface.rim_radius, injector.valve.stop.gap, 6e-6, 0.95
+    rim, gap, begun, x = injector.interface.rim_radius, injector.valve.stop.gap, 6e-6, 0.95
     rows = []
     for temperature in injector.study.temperatures:
         viscosity = injector.interface.meniscus.liquid.at(temperature).viscosity
@@ -104,7 +104,7 @@ def refilling_table() -> str:
             3.0
             * viscosity
             * rim**2
-            * (gap - torn)
+            * (gap - begun)
             / (gap**3 * drop)
             * x
             * x

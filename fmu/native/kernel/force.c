@@ -65,10 +65,10 @@ static void forces_of(const ck_model *model, const ck_acting *acting, double gap
     *radius = 0.0;
     ck_forces_at(acting, gap, speed, found);
     if (!law) return;
-    if (ck_is_torn_by(law, &memory->cavity, at)) {
+    if (ck_is_inception(law, &memory->cavity, at)) {
         fraction = ck_receding_edge(ck_tension_at(law, gap, speed, whole.hollow) / law->drop);
         before = gap;
-    } else if (memory->cavity.phase == CK_WHOLE) {
+    } else if (memory->cavity.phase == CK_FULL) {
         return;
     }
     memset(&spot, 0, sizeof spot);
@@ -180,13 +180,13 @@ static int free_of(const ck_acting *acting) {
 }
 
 /* Go along a stretch with a film that remembers its cavity: its viscous impulse, and the time of the
-   stretch at which it tore or was whole again last. nan if there is no way, or it is too long: `left`
-   are the steps that it may take. */
+   stretch at which it cavitated or was full again last. nan if there is no way, or it is too long:
+   `left` are the steps that it may take. */
 static double with_memory(ck_model *model, const ck_acting *acting, double from, double to, double length,
                           int *left, double *changed) {
     ck_cavity *cavity = &model->state.memory.cavity;
     ck_place at = {from, (to - from) / length};
-    int was = cavity->phase == CK_WHOLE && !ck_is_torn_by(acting->law, cavity, at), full;
+    int was = cavity->phase == CK_FULL && !ck_is_inception(acting->law, cavity, at), full;
     int found = CK_PATH_STEP;
     double total = 0.0, part, gap = from;
     ck_path path;
@@ -198,14 +198,14 @@ static double with_memory(ck_model *model, const ck_acting *acting, double from,
             part = full ? along.viscous : part + along.free;
         }
         total += part;
-        if (was != (cavity->phase == CK_WHOLE)) was = !was, *changed = path.time;
+        if (was != (cavity->phase == CK_FULL)) was = !was, *changed = path.time;
         gap = after;
     }
     return found == CK_PATH_END ? total : NAN;
 }
 
-/* Integrate over the motion of the step, from kink to kink; `changed` is when the film tore last, or
-   was whole again. */
+/* Integrate over the motion of the step, from kink to kink; `changed` is when the film cavitated
+   last, or was full again. */
 static ck_impulse go(ck_model *model, double time, double step, double target, int *left,
                      double *changed) {
     ck_memory *memory = &model->state.memory;
@@ -282,9 +282,9 @@ static void tell(ck_model *model) {
 static void tell_cavity(ck_model *model, int was, double time) {
     int now = model->state.memory.cavity.phase;
     char message[80];
-    if ((was == CK_WHOLE) == (now == CK_WHOLE) || model->state.memory.broken) return;
+    if ((was == CK_FULL) == (now == CK_FULL) || model->state.memory.broken) return;
     snprintf(message, sizeof message, "%s at t = %.9g s",
-             now == CK_WHOLE ? "film whole again" : "film torn", time);
+             now == CK_FULL ? "film reformed" : "film cavitated", time);
     model->say(model->host, CK_OK, "logEvents", message);
 }
 
