@@ -142,6 +142,7 @@ def test_a_page_that_cannot_be_written_is_reported_beside_its_checks(
     assert not (out / "squares.md").exists()
 
 
+@pytest.mark.slow
 def test_a_page_that_fails_does_not_stop_the_others(page, tmp_path, capsys):
     broken = tmp_path / "broken.py"
     broken.write_text(page.read_text().replace("return {", "raise ValueError('no data')\n    {"))
