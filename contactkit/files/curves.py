@@ -155,6 +155,8 @@ def read_curve(path: str | Path) -> SavedCurve:
 
 def _unpacked(header: Any, columns: Arrays) -> SavedCurve:
     """The curve of a file; what is missing or of another type is refused by an error of Python."""
+    if "axis" in header:  # a file of before version 0.2 has no kind, and less in it
+        header = {"kind": "curve", "validity": [], "parts": {}, "shown": {}} | header
     if header.get("kind") != "curve":
         raise ValueError(f"it holds a {header.get('kind')!r:.40}; load_result reads results")
     units = _texts(header["units"])
