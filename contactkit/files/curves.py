@@ -188,16 +188,17 @@ def _texts(found: Mapping[str, Any]) -> dict[str, str]:
     return dict(found)
 
 
-def _number(value: Any) -> Any:
-    if value is not None and not isinstance(value, Real):
-        raise TypeError(f"a scalar is a {type(value).__name__} and no number")
-    return value
+def _number(value: Any) -> float:
+    if not isinstance(value, Real):
+        raise TypeError(f"a {type(value).__name__} is no number")
+    return value  # type: ignore[return-value]  # int and float are registered as Real
 
 
 def _validity(fields: Mapping[str, Any]) -> ValidityNumber:
     _texts({key: fields[key] for key in ("name", "detail", "source")})
     for key in ("value", "low", "high"):
-        _number(fields[key])
+        if key != "value" or fields[key] is not None:  # one that could not be evaluated
+            _number(fields[key])
     return ValidityNumber(**fields)
 
 
