@@ -452,13 +452,6 @@ def test_a_place_on_a_machine_would_be_seen():
 
 # Constants ----------------------------------------------------------------------------------
 
-# How many constants of a room have no reason yet: none may be added, and a room that is clean goes.
-WITHOUT_A_REASON = {
-    "contactkit/contact": 21,
-    "contactkit/lubrication": 3,
-    "contactkit/separation": 4,
-}
-
 
 def is_numeric(value):
     """Whether an expression is made of numbers only: a number, arithmetic of them, a tuple."""
@@ -496,13 +489,12 @@ def without_a_reason(source):
 
 def test_every_constant_says_why():
     """A comment says what it balances and what set it; a constant that balances nothing goes."""
-    rooms = Counter()
-    for path in python_files():
-        if not label(path).startswith("examples/"):
-            room = "/".join(label(path).split("/")[:2])
-            rooms[room] += len(without_a_reason(path.read_text(encoding="utf-8")))
-    more = {room: n for room, n in rooms.items() if n > WITHOUT_A_REASON.get(room, 0)}
-    assert more == {}, "constants without a comment above them or on their line"
+    bare = {
+        label(path): without_a_reason(path.read_text(encoding="utf-8"))
+        for path in python_files()
+        if not label(path).startswith("examples/")
+    }
+    assert offenders(bare) == {}, "constants without a comment above them or on their line"
 
 
 def test_a_constant_without_a_reason_would_be_seen():

@@ -43,7 +43,7 @@ PATIENCE = 4
 """Iterations of the active set before a coarser grid is asked for a better guess."""
 SMALLEST_GRID = 16
 """Cells along the longer side below which no coarser grid is asked."""
-_AT_REST = (0.0, 0.0)
+_AT_REST = (0.0, 0.0)  # walls that do not slide [m/s]
 
 Velocity = tuple[float, float]
 
