@@ -502,6 +502,37 @@ def test_a_constant_without_a_reason_would_be_seen():
     assert without_a_reason(source) == ["B", "F"]
 
 
+DEFINED = re.compile(r"#define (\w+) [-(]*\.?\d")
+
+
+def defined_without_a_reason(source):
+    """Numbers that C code defines without a comment on their line or above their block."""
+    found, is_said = [], False
+    for line in source.splitlines():
+        number = DEFINED.match(line)
+        # A comment that ends above a line speaks of it, and of the rest of its block.
+        is_said = bool(line.strip()) and (is_said or line.rstrip().endswith("*/"))
+        if number and "/*" not in line and not is_said:
+            found.append(number[1])
+    return found
+
+
+def test_every_number_of_the_kernel_says_why():
+    bare = {
+        label(path): defined_without_a_reason(path.read_text(encoding="utf-8"))
+        for pattern in ("*.c", "*.h")
+        for path in sorted((ROOT / "fmu").rglob(pattern))
+    }
+    assert offenders(bare) == {}, "numbers without a comment above them or on their line"
+
+
+def test_a_number_of_c_without_a_reason_would_be_seen():
+    source = (
+        "#define A 1 /* of B */\n\n#define B (2.0 * C)\n\n/* both */\n#define D 3\n#define E .5"
+    )
+    assert defined_without_a_reason(source) == ["B"]
+
+
 # Doctests -----------------------------------------------------------------------------------
 
 

@@ -39,7 +39,7 @@ _CURVES = (
 __all__ = ["PlasticHistory", "PlasticHistoryPart"]
 
 # Of the work of the load. A ball that is pressed in and unloaded has 0.075 with two steps to each
-# load, 0.027 with four, 0.009 with eight: where the trapezoidal rule alone is to blame, more cure it.
+# load, 0.027 with four, 0.009 with eight: what the trapezoidal rule leaves, more steps cure.
 _HIGHEST_IMBALANCE = 0.1
 
 

@@ -5,8 +5,6 @@
 
 #include <math.h>
 
-#define CK_PI 3.14159265358979323846
-
 static double square_at(const ck_rupture_piece *p, double t) {
     return p->y[0] + t * (p->y[1] + t * (p->y[2] + t * p->y[3]));
 }
