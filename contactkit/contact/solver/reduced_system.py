@@ -167,7 +167,7 @@ class ReducedSystem:
             q = np.zeros_like(r)
             self.apply(x, q)
             self.take_step(1.0)
-            r -= q - q.mean(dtype=np.float64)
+            r -= q - q.mean(dtype=np.float64)  # the approach is free: equations hold up to a mean
         conjugate_gradient(self, x, r, reduction, MAX_ITERATIONS)
         self.operator.source.ravel()[self.place] = 0.0
         self.preconditioner.clean()

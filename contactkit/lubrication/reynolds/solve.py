@@ -347,6 +347,7 @@ def unchecked_step(
         film=film,
         face=face,
         gap=height,
+        # To be filled: the gap after the step less the liquid before it. Voids close first.
         growth=(height - state.liquid_fraction * state.gap) / dt,
         floor=_floors(film, state.beside_cavity),
         fraction=state.liquid_fraction,
