@@ -80,6 +80,7 @@ if TYPE_CHECKING:
         PlanError,
         ValidityWarning,
     )
+    from .files.curves import SavedCurve, read_curve
     from .files.results import load_result, save_result
     from .files.scenes import load_liquid, load_material, load_scene, save_scene
     from .kinds import EFFECTS, KINDS, register
@@ -224,6 +225,7 @@ _HOMES = {
     "RigidBase": "scene.materials",
     "Ring": "scene.planforms",
     "Rupture": "separation.effects.rupture",
+    "SavedCurve": "files.curves",
     "SealedHole": "scene.faces",
     "Sector": "scene.planforms",
     "SelfAffineRoughness": "scene.rough_surfaces",
@@ -271,6 +273,7 @@ _HOMES = {
     "press": "contact.press",
     "published": "as_published.lookup",
     "pull_off_curve": "analyses.pull_off",
+    "read_curve": "files.curves",
     "register": "kinds",
     "save_result": "files.results",
     "save_scene": "files.scenes",
@@ -358,6 +361,7 @@ __all__ = [
     "RigidBase",
     "Ring",
     "Rupture",
+    "SavedCurve",
     "SealedHole",
     "Sector",
     "SelfAffineRoughness",
@@ -405,6 +409,7 @@ __all__ = [
     "press",
     "published",
     "pull_off_curve",
+    "read_curve",
     "register",
     "save_result",
     "save_scene",

@@ -176,7 +176,7 @@ def write_study(made: Study[Any], out: Path) -> tuple[Path, ...]:
     return tuple(
         file
         for name, one in known.items()
-        for file in (one.save_csv(out / name), one.save_npz(out / name))
+        for file in (one.save_csv(out / name), one.save(out / name))
     )
 
 

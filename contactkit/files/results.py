@@ -189,6 +189,8 @@ def _unpacked(header: dict[str, Any], columns: Arrays, name: str) -> AnyResult:
     """Result of the kind that its header names."""
     if header.get("kind") == "contact":
         return unpack_contact(header, columns, name)
+    if header.get("kind") == "curve":
+        raise ValueError("it is a curve, which read_curve reads")
     if header.get("kind") == "sliding":
         return _unpack_sliding(header, columns, name)
     return _unpack_separation(header, columns, name)

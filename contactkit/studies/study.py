@@ -24,6 +24,7 @@ from ..errors import (
 )
 from ..files.results import from_bytes
 from ..planning import plan
+from ..scene.plan import ScenePlan
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..scene.scenes import Scene as AnyScene
 from .paths import Axis, Scene, Vary, axes, changed, combinations
@@ -226,10 +227,14 @@ def check_study(
 def check_effects(scene: Scene, accuracy: Accuracy) -> None:
     """Refuse effects that do not fit the scene of a point, but no load: that is of this point."""
     with suppress(InfeasibleError):
-        if isinstance(scene, ContactScene):
-            unprepared_plan(scene, accuracy)
-        else:
-            plan(scene, accuracy)
+        _unprepared(scene, accuracy)
+
+
+def _unprepared(scene: Scene, accuracy: Accuracy) -> ScenePlan:
+    """The plan of a point; of a contact without its heights and compliances."""
+    if isinstance(scene, ContactScene):
+        return unprepared_plan(scene, accuracy)
+    return plan(scene, accuracy)
 
 
 class _Run:
@@ -343,7 +348,20 @@ class _Run:
             tuple(axis.paths for axis in self.varied),
             units,
             tuple(self.results.get(i) for i in range(len(points))) if self.keeps_maps else None,
+            sources=self._sources(),
         )
+
+    def _sources(self) -> tuple[str, ...]:
+        """Sources of the first point, or of all where effects vary; none of what has no plan."""
+        places = range(len(self.tasks))
+        if not any(path.startswith("effects") for axis in self.varied for path in axis.paths):
+            places = range(1)
+        found = dict[str, None]()
+        for i in places:
+            with suppress(ContactkitError):
+                made = changed(self.scene, self.accuracy, self.tasks[i].values)
+                found |= dict.fromkeys(_unprepared(*made).cite().splitlines())
+        return tuple(found)
 
 
 def _warn(points: list[StudyPoint]) -> None:

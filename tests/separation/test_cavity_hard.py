@@ -125,7 +125,7 @@ def test_the_tenth_cycle_is_as_the_first():
     assert widest[-1] == pytest.approx(widest[0], rel=1e-6)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_the_thousandth_cycle_is_as_the_first():
     widest = oscillating(1000)
     assert max(widest) - min(widest) < 2e-6

@@ -9,6 +9,7 @@ import attrs
 import numpy as np
 import pytest
 from reynolds_cases import CASES, inputs
+from selection import quick
 
 import contactkit as ck
 from contactkit.separation.cavity.state import Phase, restored_cavity
@@ -38,9 +39,9 @@ def one_pressure(tension):
     return ck.TensionLimit(strength=tension, cavity_pressure=AMBIENT - tension)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
-    ("name", "error"), [("pull_flooded_jfo_0.1", 2e-3), ("pull_flooded_jfo_dp1.25e+06", 1e-2)]
+    ("name", "error"),
+    quick([("pull_flooded_jfo_0.1", 2e-3), ("pull_flooded_jfo_dp1.25e+06", 1e-2)], long=[0]),
 )
 def test_a_disc_is_pulled_apart_as_its_edge_says(name, error):
     """Release of the injector by the ODE of the exact edge of a round cavity."""
@@ -104,7 +105,7 @@ def motion(face, pulls, step, accuracy=ROUGHLY):
     return np.array(found), state
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_what_has_cavitated_is_remembered_until_liquid_is_back():
     """Pulled, pushed back and pulled again, as the round cavity of the same liquid."""
     pulls = [40.0] * 4 + [-40.0] * 4

@@ -247,7 +247,7 @@ def test_wrong_slopes_cost_steps_and_not_the_right_force():
     class Wrong(Declared):
         def prepare(self, prepared):
             law = super().prepare(prepared)
-            return attrs.evolve(law, slopes=lambda gap, speed: (0.0, 1e4))
+            return attrs.evolve(law, slopes=lambda gap, speed: (0.0, 1e2))
 
     right = run(imposed(), Declared(linear=5.0, has_slopes=True))
     wrong = run(imposed(), Wrong(linear=5.0))

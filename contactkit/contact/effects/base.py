@@ -52,6 +52,7 @@ __all__ = [
     "Observer",
     "PressureBound",
     "Scalar",
+    "SurfaceTraction",
     "VaryingHardness",
     "effects_of",
 ]
@@ -93,8 +94,9 @@ class SolvedContact(NamedTuple):
     """A solved contact as the effects see it: maps (ny, nx) in SI units.
 
     `bounded` is there with a `PressureBound`, `frictional` with a `DisplacementTerm`, `attracted`
-    with an `Attraction`, and the properties of the `liquid` at the temperature of the scene where
-    an effect needs them. With an `Attraction` the pressure is negative where it pulls.
+    with an `Attraction`, `tractions` on the lower body along x and y [Pa] with a `SurfaceTraction`,
+    and the properties of the `liquid` at the temperature of the scene where an effect needs them.
+    With an `Attraction` the pressure is negative where it pulls.
     """
 
     scene: ContactScene
@@ -107,6 +109,7 @@ class SolvedContact(NamedTuple):
     frictional: FrictionalContact | None = None
     liquid_state: LiquidState | None = None
     attracted: AttractedContact | None = None
+    tractions: tuple[Map, Map] | None = None
 
     @property
     def touching(self) -> NDArray[np.bool_]:
@@ -404,6 +407,15 @@ class Observer(ContactEffect[Part]):
     @abc.abstractmethod
     def observe(self, contact: SolvedContact) -> Part:
         """Return what this effect adds to the result."""
+
+
+@frozen(kw_only=True)
+class SurfaceTraction(Observer[Part]):
+    """Friction in a solved contact: tractions along its surfaces; none or one."""
+
+    @abc.abstractmethod
+    def tractions(self, part: Part) -> tuple[Map, Map]:
+        """Return the tractions on the lower body along x and y [Pa], (ny, nx) each."""
 
 
 def effects_of(scene: ContactScene) -> tuple[ContactEffect[Any], ...]:

@@ -11,7 +11,7 @@ from attrs import field, frozen
 
 from ...units import si
 from ...validators import finite, friction_coefficient
-from .base import Array, DisplacementTerm, FrictionalContact, Observer, Scalar, SolvedContact
+from .base import Array, DisplacementTerm, FrictionalContact, Scalar, SolvedContact, SurfaceTraction
 from .elasticity import bodies_of
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class CouplingPart(NamedTuple):
 
 
 @frozen(kw_only=True)
-class FrictionTraction(Observer[FrictionPart]):
+class FrictionTraction(SurfaceTraction[FrictionPart]):
     """Sliding contact: each pixel carries a traction of friction times pressure.
 
     The traction on the lower body points where the upper body slides, the one on the upper body
@@ -113,6 +113,10 @@ class FrictionTraction(Observer[FrictionPart]):
         ratio, pressure = self.components(), contact.contact_pressure
         load = float(pressure.sum()) * contact.grid.pixel_area
         return FrictionPart(ratio.x * pressure, ratio.y * pressure, self.coefficient * load)
+
+    def tractions(self, part: FrictionPart) -> tuple[Map, Map]:
+        """See `SurfaceTraction.tractions`."""
+        return part.traction_x, part.traction_y
 
 
 @frozen(kw_only=True)

@@ -24,9 +24,8 @@ from ...validators import (
 )
 from ...validity import ValidityNumber
 from ..slip.states import PartialSlipPart, SlipCoupling, Zone
-from .base import Array, LoadHistory, Observer, Scalar, SolvedContact
+from .base import Array, LoadHistory, Scalar, SolvedContact, SurfaceTraction
 from .elasticity import bodies_of, contact_modulus, layers_of
-from .friction import FrictionTraction
 
 if TYPE_CHECKING:
     import numpy as np
@@ -97,7 +96,7 @@ def _last(name: str) -> Any:
 
 
 @frozen(kw_only=True)
-class PartialSlip(Observer[PartialSlipPart]):
+class PartialSlip(SurfaceTraction[PartialSlipPart]):
     r"""Stick and slip of the contact under a tangential load that follows a path.
 
     The pressure is that of contact without friction, and stays: exact for two equal bodies and
@@ -282,15 +281,6 @@ class PartialSlip(Observer[PartialSlipPart]):
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""
         missing = []
-        if scene.effect(FrictionTraction) is not None:
-            missing.append(
-                "a scene without FrictionTraction, which slides everywhere: list one of them"
-            )
-        if any(effect.name == "subsurface-stress" for effect in scene.effects):
-            missing.append(
-                "a scene without SubsurfaceStress, which does not have its traction: list it with "
-                "FrictionTraction for full sliding"
-            )
         turned = [s for s in self.path if s.direction is not None and s.direction != self.direction]
         if self.components == 1 and turned:
             missing.append(
@@ -322,6 +312,10 @@ class PartialSlip(Observer[PartialSlipPart]):
         stacks = tuple(layers_of(stack) for stack in contact.scene.interface.stacks)
         pressure = contact.contact_pressure
         return follow(pressure, contact.grid, stacks, self.path, self.law, contact.threads)
+
+    def tractions(self, part: PartialSlipPart) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """See `SurfaceTraction.tractions`: those at the end of the path."""
+        return part.traction_x[-1], part.traction_y[-1]
 
     def validity(
         self, contact: SolvedContact, part: PartialSlipPart | None

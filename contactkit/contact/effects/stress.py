@@ -119,7 +119,8 @@ class SubsurfaceStress(Observer[StressPart]):
     """Stress in the lower body, on planes at depth and on both faces of each interface.
 
     In-plane stresses jump at interfaces, so a maximum may sit on either face. Where friction
-    acts its traction is included. Maxima are those of the pixels of the planes; each comes with
+    acts its traction is included: that of `FrictionTraction`, or that of `PartialSlip` at the end
+    of its path. Maxima are those of the pixels of the planes; each comes with
     an estimate of how much larger the stress may be between the planes.
 
     Parameters
@@ -304,9 +305,10 @@ class _Planes:
         own = friction.coefficient if friction is not None and effect.coefficients else 0.0
         self._sliding = (own, *effect.coefficients)
         x, y = None, None
-        if contact.attracted is not None and ratio is not None:  # no friction across the gap
-            pressed = contact.contact_pressure
-            x, y, ratio = ratio.x * pressed, ratio.y * pressed, None
+        # In proportion to the pressure, tractions cost no transforms of their own; those of partial
+        # slip are not, nor those beside an attraction: there is no friction across the gap.
+        if contact.tractions is not None and (ratio is None or contact.attracted is not None):
+            (x, y), ratio = contact.tractions, None
         self._field = StressField(
             Tractions(contact.grid.pixel_size, contact.pressure, x, y),
             layers_of(stack),

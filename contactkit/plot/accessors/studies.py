@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from ...errors import DescriptionError
@@ -20,6 +21,10 @@ __all__ = ["SensitivityFigures", "StudyFigures"]
 @registered_figures.register(Study)
 class StudyFigures(Figures[Study[Any]]):
     """Figures of the numbers of a study over its parameters."""
+
+    def pictures(self) -> dict[str, Callable[[], Axes]]:
+        """See `Figures.pictures`: every number that changes between the points."""
+        return {name: partial(self.number, name) for name in self._owner.telling()}
 
     def number(self, name: str, *, over: str | None = None, ax: Axes | None = None) -> Axes:
         """Draw a number over a parameter, a line for each combination of the others.

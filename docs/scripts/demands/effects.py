@@ -79,7 +79,8 @@ def page(data: Mapping[str, Any]) -> str:
         parts += [_section(kind, data["effects"][kind.name]) for kind in registry]
     parts += [
         "## How it was made",
-        "`make demands` runs all scenes, which are in `docs/scripts/demands/effect_scenes.py`; "
+        "`make pages PAGES=demands` runs all scenes, which are in "
+        "`docs/scripts/demands/effect_scenes.py`; "
         "`python docs/scripts/demands effects --draw` makes the page from the data, "
         "`docs/demands/effects.json`. A registered effect without an entry fails the tests.",
         conditions(data["measured"]),

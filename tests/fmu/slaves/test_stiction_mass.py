@@ -69,7 +69,7 @@ def test_it_is_valid(mass_fmu):
 
 
 @pytest.mark.parametrize(
-    ("name", "rtol"), quick([("A", 1e-6), ("B", 1e-6), ("D", 1e-6), ("E", 1e-5)], 0, 2)
+    ("name", "rtol"), quick([("A", 1e-6), ("B", 1e-6), ("D", 1e-6), ("E", 1e-5)], 0, 2, long=[3])
 )
 def test_the_release_cases_are_met(host, release_cases, name, rtol):
     """The tolerance is the one promised; the ramp of B and E is fed as 10 000 straight pieces."""
