@@ -507,12 +507,12 @@ DEFINED = re.compile(r"#define (\w+) [-(]*\.?\d")
 
 def defined_without_a_reason(source):
     """Numbers that C code defines without a comment on their line or above their block."""
-    found, is_said = [], False
+    found, is_explained = [], False
     for line in source.splitlines():
         number = DEFINED.match(line)
         # A comment that ends above a line speaks of it, and of the rest of its block.
-        is_said = bool(line.strip()) and (is_said or line.rstrip().endswith("*/"))
-        if number and "/*" not in line and not is_said:
+        is_explained = bool(line.strip()) and (is_explained or line.rstrip().endswith("*/"))
+        if number and "/*" not in line and not is_explained:
             found.append(number[1])
     return found
 
