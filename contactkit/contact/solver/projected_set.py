@@ -197,7 +197,7 @@ class ProjectedSet(ActiveSetState):
             projection.restore(change, 0.0)
             change = _balanced(change)
         y = np.clip(p + change, 0.0, bound)
-        y[change <= low] = 0.0  # exactly, as p + change is not: the sets are told by it
+        y[change <= low] = 0.0  # exactly: sets of pixels are found by it, and p + change misses it
         return np.asarray(np.where(change >= high, bound, y))
 
     def _downhill(self, p: Floats, r: Floats, bound: Floats) -> Floats:
