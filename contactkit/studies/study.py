@@ -27,7 +27,7 @@ from ..planning import plan
 from ..scene.plan import ScenePlan
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..scene.scenes import Scene as AnyScene
-from .paths import Axis, Scene, Vary, axes, changed, combinations
+from .paths import Axis, Parameters, Scene, axes, changed, combinations
 from .run import Done, Piece, Task, put
 from .spread import run_here, run_in_processes, run_on_client
 from .store import Store, StudyPoint
@@ -61,7 +61,7 @@ __all__ = [
 @overload
 def study(
     scene: ContactScene,
-    vary: Vary,
+    parameters: Parameters,
     accuracy: Accuracy | None = ...,
     *,
     store: str | Path | None = ...,
@@ -75,7 +75,7 @@ def study(
 @overload
 def study(
     scene: SeparationScene,
-    vary: Vary,
+    parameters: Parameters,
     accuracy: Accuracy | None = ...,
     *,
     store: str | Path | None = ...,
@@ -89,7 +89,7 @@ def study(
 @overload
 def study(
     scene: SlidingScene,
-    vary: Vary,
+    parameters: Parameters,
     accuracy: Accuracy | None = ...,
     *,
     store: str | Path | None = ...,
@@ -102,7 +102,7 @@ def study(
 
 def study(
     scene: ContactScene | SeparationScene | SlidingScene,
-    vary: Vary,
+    parameters: Parameters,
     accuracy: Accuracy | None = None,
     *,
     store: str | Path | None = None,
@@ -117,7 +117,7 @@ def study(
     ----------
     scene : ContactScene, SeparationScene or SlidingScene
         The scene, with its constant parameters.
-    vary : mapping of str or tuple of str to sequence
+    parameters : mapping of str or tuple of str to sequence
         Values by the dotted path of a field: ``loading.pressure``,
         ``interface.lower.solid.layers.0.thickness``, ``effects.friction-traction.coefficient``,
         ``accuracy.rtol``. Quantities may be texts with a unit, solids and liquids names of the
@@ -182,7 +182,7 @@ def study(
     check_kind(scene)
     check_whole("workers", workers, 1)
     accuracy = accuracy if accuracy is not None else Accuracy.standard
-    varied = axes(scene, accuracy, vary)
+    varied = axes(scene, accuracy, parameters)
     kept = Store(Path(store).resolve()) if store is not None else None
     run = _Run(scene, accuracy, varied, kept, keep_maps, progress, RETRIES)
     pieces = run.pieces(slots(client, workers))
@@ -207,10 +207,10 @@ def check_whole(name: str, value: object, least: int) -> None:
 
 def check_study(
     scene: ContactScene | SeparationScene | SlidingScene,
-    vary: Vary,
+    parameters: Parameters,
     accuracy: Accuracy | None = None,
 ) -> tuple[Axis, ...]:
-    """Refuse what `study` refuses before any solve, and return the parameters that vary.
+    """Refuse what `study` refuses before any solve, and return them parsed.
 
     Raises
     ------
@@ -218,7 +218,7 @@ def check_study(
         As `study` does.
     """
     accuracy = accuracy if accuracy is not None else Accuracy.standard
-    varied = axes(scene, accuracy, vary)
+    varied = axes(scene, accuracy, parameters)
     points = [changed(scene, accuracy, values) for values in combinations(varied)]
     check_effects(*points[0])
     return varied
