@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # compile numpy again.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: typed demo test test-all release-check lint bench bench-own peers demands docs format clean
+.PHONY: typed demo test test-all test-release release-check lint bench bench-own peers pages docs format clean
 
 $(VENV)/.made:
 	$(PYTHON) -m venv $(VENV)
@@ -22,18 +22,24 @@ $(VENV)/.%: $(VENV)/.made pyproject.toml
 demo: $(VENV)/.all
 	$(BIN)/contactkit run fuel-injector --out out/fuel-injector --overwrite
 
-# The same every time and on every machine; what takes long, or explores at random, comes after.
+# The same every time and on every machine.
+PYTEST = $(BIN)/python -m pytest --numprocesses auto --dist worksteal
 test: $(VENV)/.test
-	$(BIN)/python -m pytest --numprocesses auto --dist worksteal
+	$(PYTEST)
 
-# SEED=... repeats what a run explored.
-SEED ?= $(shell date +%Y%m%d)
+# And what takes long: the same every time too.
 test-all: test $(VENV)/.test-all
-	@echo "random examples from SEED=$(SEED)"
-	$(BIN)/python -m pytest --numprocesses auto --dist worksteal -m "slow or hypothesis" \
-		--hypothesis-profile=random --hypothesis-seed=$(SEED)
+	$(PYTEST) -m "slow and not exhaustive" --durations 25
 
-# Everything against other programs, some minutes, one table; docs/scripts/peers_data.py puts it
+# Before a release, half an hour: every case of the sweeps of which test-all runs some, then random
+# examples. SEED=... repeats what a run explored.
+SEED ?= $(shell date +%Y%m%d)
+test-release: $(VENV)/.test-all
+	$(PYTEST) -m exhaustive
+	@echo "random examples from SEED=$(SEED)"
+	$(PYTEST) -m hypothesis --hypothesis-profile=random --hypothesis-seed=$(SEED)
+
+# Everything against other programs, some minutes, one table; `make pages PAGES=peers` puts it
 # into docs/demands. Larger maps:
 # .venv/bin/python tests/benchmarks/peers/compare.py --sizes 256 512 1024 2048 --areas 1 5 20 --budget 120
 bench: $(VENV)/.test peers
@@ -43,10 +49,11 @@ bench: $(VENV)/.test peers
 bench-own: $(VENV)/.test
 	$(BIN)/python -m pytest tests/benchmarks --benchmark-only --benchmark-disable-gc --benchmark-columns=min,median,max,rounds
 
-# Pages of docs/demands: measured again, some minutes. Only drawn again from their data:
-# .venv/bin/python docs/scripts/demands --draw
-demands: $(VENV)/.test
-	$(BIN)/python docs/scripts/demands
+# Generated pages, tables and pictures of docs, made again: all, some hours, or PAGES="films demands".
+# .venv/bin/python docs/scripts/pages.py --list has the names, and how long each takes.
+PAGES ?=
+pages: $(VENV)/.test
+	$(BIN)/python docs/scripts/pages.py $(PAGES)
 
 # Other contact solvers, each in an environment of its own; what does not install is named with the reason.
 peers: $(VENV)/.made

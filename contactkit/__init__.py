@@ -18,7 +18,7 @@ Examples
 separation: speed imposed, gap 5e-06 m to 2.5e-05 m
   on   meniscus-force      capillary force of the meniscus (profile='exact')
   on   viscous-force       viscous force of the film (Reynolds) (closure='volume-conserving')
-  on   tension-limit       the liquid tears at a tension and leaves a cavity (strength=1000000.0, ambient_pressure=101325.0, cavity='mass-conserving')
+  on   tension-limit       the liquid cavitates at a tension and leaves a cavity (strength=1000000.0, ambient_pressure=101325.0, cavity='mass-conserving')
   off  shear-limit         wall shear stress bounded by a limiting shear strength
   off  rupture             the film breaks at a gap
   off  van-der-waals-force van der Waals attraction of the solids
@@ -26,7 +26,7 @@ separation: speed imposed, gap 5e-06 m to 2.5e-05 m
   off  asperity-menisci    menisci at the summits of a rough face
   off  elastic-bodies      the bodies deform under the pressure of film, meniscus and contact
   off  solid-contact       asperities carry the bodies at a cut-off gap
-  the liquid tears 10 bar below ambient, a cavity is 1.01325 bar below it
+  the liquid cavitates 10 bar below ambient, a cavity is 1.01325 bar below it
 """
 
 from __future__ import annotations
@@ -86,6 +86,7 @@ if TYPE_CHECKING:
         PlanError,
         ValidityWarning,
     )
+    from .files.curves import SavedCurve, read_curve
     from .files.results import load_result, save_result
     from .files.scenes import load_liquid, load_material, load_scene, save_scene
     from .kinds import EFFECTS, KINDS, register
@@ -235,6 +236,7 @@ _HOMES = {
     "RigidBase": "scene.materials",
     "Ring": "scene.planforms",
     "Rupture": "separation.effects.rupture",
+    "SavedCurve": "files.curves",
     "SealedHole": "scene.faces",
     "Sector": "scene.planforms",
     "SelfAffineRoughness": "scene.rough_surfaces",
@@ -290,6 +292,7 @@ _HOMES = {
     "pull_off_over_speed": "analyses.deforming.pull_off_speed",
     "release_over": "analyses.deforming.release",
     "stiction_table": "analyses.deforming.stiction",
+    "read_curve": "files.curves",
     "register": "kinds",
     "save_result": "files.results",
     "save_scene": "files.scenes",
@@ -381,6 +384,7 @@ __all__ = [
     "RigidBase",
     "Ring",
     "Rupture",
+    "SavedCurve",
     "SealedHole",
     "Sector",
     "SelfAffineRoughness",
@@ -431,6 +435,7 @@ __all__ = [
     "published",
     "pull_off_curve",
     "pull_off_over_speed",
+    "read_curve",
     "register",
     "release_over",
     "save_result",

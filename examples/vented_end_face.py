@@ -1,4 +1,4 @@
-"""A spool with a hole through its end face: release over its size, for an oil that never tears.
+"""A spool with a hole through its end face: release over its size, for an oil that never cavitates.
 
 The valve of the fuel injector pulls a spool whose end is a ring, vented in the middle: a `Flat`
 whose planform is a `Ring`. Beside it the pressure on such a face with four more vents, from
@@ -29,7 +29,7 @@ HOLES = (0.0, 0.01, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # radius [
 
 def ring(injector: InjectorScene, temperature: float, hole: float) -> ck.SeparationScene:
     """Film of a face with a vented hole of a radius [m] in its middle; 0: none."""
-    film = injector.separation(temperature, tears=False)
+    film = injector.separation(temperature, cavitates=False)
     face = ck.Flat(radius=RADIUS)
     if hole > 0.0:
         face = ck.Flat(planform=ck.Ring(radius=RADIUS, hole_radius=hole))
@@ -59,7 +59,7 @@ def vented_face() -> reynolds.GridFilmState:
     vents = [reynolds.Hole(shape=ck.Disc(radius=0.25 * mm, centre=one)) for one in at]
     face = reynolds.rasterise(ck.Disc(radius=RADIUS), 160, holes=vents)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ck.ValidityWarning)  # 24 bar of tension: it never tears
+        warnings.simplefilter("ignore", ck.ValidityWarning)  # 24 bar of tension: it never cavitates
         return reynolds.solve_pressure(reynolds.GridFilm(face=face, viscosity=0.1), GAP, 1e-4)
 
 
@@ -81,7 +81,7 @@ def main(out: Path) -> float:
     )
     right.axhline(4.0, color="#7f7f7f", lw=0.8, ls=":")
     right.annotate("end of the current pulse", (0.02, 4.03), fontsize=8, color="#606060")
-    plot.title(right, "a ring with a vent, oil that never tears")
+    plot.title(right, "a ring with a vent, oil that never cavitates")
     plot.legend(right, loc="upper right", bbox_to_anchor=(1.0, 0.93))
     plot.letters((left, right))
     plot.save(figure, out / "vented_end_face")

@@ -11,7 +11,7 @@ from ..errors import DescriptionError, nearest
 if TYPE_CHECKING:
     from .device import Device
 
-__all__ = ["bundled_scene", "bundled_scenes", "device_kind", "register_device"]
+__all__ = ["bundled_device", "bundled_scene", "bundled_scenes", "device_kind", "register_device"]
 
 # Class of each device by the name that it has in files, ``device = "fuel-injector"``; imported when
 # it is named.
@@ -69,3 +69,19 @@ def bundled_scene(name: str) -> Path:
         hint = nearest(name, sorted(scenes)) + "; or give the path of a .toml file"
         raise DescriptionError("scene", name, "be a file or the name of a scene", hint=hint)
     return scenes[name]
+
+
+def bundled_device(name: str) -> Device:
+    """Read a device of this package, such as ``fuel-injector``.
+
+    Raises
+    ------
+    DescriptionError
+        If there is none of that name.
+    """
+    from ..files.scenes import read_tables
+    from ..files.structure import structure
+
+    path = bundled_scene(name)
+    tables = read_tables(path)
+    return structure(tables, device_kind(tables.pop("device", None)), path.name)

@@ -6,16 +6,18 @@ import gc
 import json
 from pathlib import Path
 
+import attrs
 import loadings
 import pytest
 from hypothesis import HealthCheck, settings
 
 import contactkit as ck
+from contactkit.benchmarks import releases
 
 DATA = Path(__file__).parent / "data"
 
 # The same few examples every time, and no clock: a busy machine is no failure. With
-# --hypothesis-profile=random and a seed, as `make test-all` has it, more and others each time.
+# --hypothesis-profile=random and a seed, as `make test-release` has it, more and others each time.
 UNTIMED = {
     "deadline": None,
     "suppress_health_check": [HealthCheck.too_slow, HealthCheck.filter_too_much],
@@ -23,6 +25,13 @@ UNTIMED = {
 settings.register_profile("repeatable", derandomize=True, max_examples=10, **UNTIMED)
 settings.register_profile("random", database=None, print_blob=True, **UNTIMED)
 settings.load_profile("repeatable")
+
+
+def pytest_collection_modifyitems(items):
+    """What is exhaustive is slow; first, before the marks are looked at."""
+    for item in items:
+        if item.get_closest_marker("exhaustive"):
+            item.add_marker("slow")
 
 
 def pytest_collection_finish():
@@ -35,7 +44,7 @@ def pytest_collection_finish():
 @pytest.fixture(scope="session")
 def release_cases():
     """Release of a mass from a film: parameters under ``case``, reference under ``values``."""
-    return json.loads((DATA / "release.json").read_text(encoding="utf-8"))
+    return releases.release_cases()
 
 
 @pytest.fixture(scope="session")
@@ -46,37 +55,18 @@ def viscous_cases():
 
 
 @pytest.fixture(scope="session")
-def release_scene(release_cases):
+def release_scene():
     """Build the scene of a release case; keywords change its loading."""
 
     def build(name, *more, effects=None, meniscus=None, **loading):
-        case = release_cases[name]["case"]
-        oil = ck.Liquid(name="oil", viscosity=case["eta"], surface_tension=case["gamma"])
-        film = {
-            "liquid": oil,
-            "volume": case["V"] or None,
-            "contact_angle_lower": case["theta"],
-            "contact_angle_upper": case["theta"],
-        }
-        if effects is None:
-            effects = (ck.MeniscusForce(profile=ck.AsPublished(radius="disc")), ck.ViscousForce())
-            if case["dp_cav"]:
-                effects += (ck.TensionLimit(strength=case["dp_cav"], cavity="truncated"),)
-        imposed = {
-            "initial_gap": case["h0"],
-            "final_gap": case["h_rel"],
-            "force": case["F0"],
-            "mass": case["m"],
-            "stiffness": case["k_s"],
-            "rise_time": case["tau"],
-        }
-        face = ck.Flat(radius=case["R"])
-        return ck.SeparationScene(
-            interface=ck.Interface(
-                lower=face, upper=face, meniscus=ck.Meniscus(**film | (meniscus or {}))
-            ),
+        scene = releases.release_scene(name)
+        imposed = attrs.asdict(scene.loading, recurse=False)
+        film = attrs.evolve(scene.meniscus, **(meniscus or {}))
+        return attrs.evolve(
+            scene,
+            interface=attrs.evolve(scene.interface, meniscus=film),
             loading=loadings.imposed(**imposed | loading),
-            effects=(*effects, *more),
+            effects=(*(scene.effects if effects is None else effects), *more),
         )
 
     return build

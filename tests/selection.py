@@ -1,4 +1,4 @@
-"""Cases of a parametrised test that `make test` runs; the others are left to `make test-all`."""
+"""Cases of a parametrised test that `make test` and `make test-all` run."""
 
 from __future__ import annotations
 
@@ -7,10 +7,14 @@ import pytest
 __all__ = ["quick"]
 
 
-def quick(cases, *chosen):
-    """Parameters of all cases, by position: those not chosen are marked as slow."""
-    marks = {True: (), False: pytest.mark.slow}
+def quick(cases, *chosen, long=None):
+    """Parameters of all cases, by position: those not chosen are marked as slow.
+
+    Of these, if any are named as `long`, the others are exhaustive.
+    """
+    rest = pytest.mark.slow if long is None else pytest.mark.exhaustive
+    marks = dict.fromkeys(long or (), pytest.mark.slow) | dict.fromkeys(chosen, ())
     return [
-        pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=marks[i in chosen])
+        pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=marks.get(i, rest))
         for i, case in enumerate(cases)
     ]

@@ -11,7 +11,7 @@ from attrs import evolve, field, frozen
 
 from ..accuracy import Accuracy
 from ..capillary import kelvin
-from ..contact.effects.base import Attraction, Contact
+from ..contact.effects.base import Attraction, SolvedContact
 from ..contact.effects.island_bridges import IslandBridges
 from ..contact.result import ContactResult
 from ..errors import DescriptionError, InfeasibleError, NotSimulatedError, PlanError
@@ -290,7 +290,7 @@ def _contact(
             "the menisci of a humidity curve take pressures to be positive: solve the contact "
             "without Adhesion"
         )
-    contact = Contact(
+    contact = SolvedContact(
         plan.scene,
         plan.grid,
         result.pressure,
@@ -315,7 +315,7 @@ def _contact(
     return name, points, area
 
 
-def _cross_cut(effect: IslandBridges, contact: Contact, pressure: float) -> _Point:
+def _cross_cut(effect: IslandBridges, contact: SolvedContact, pressure: float) -> _Point:
     """Laplace pressure on every gap smaller than the meniscus height, Eq. (2.43)."""
     from ..capillary.film_islands import film_force, meniscus_area
 

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from attrs import evolve
 
-from ..contact.effects.base import Contact
+from ..contact.effects.base import (
+    Attraction,
+    ContactEffect,
+    DisplacementTerm,
+    SolvedContact,
+    SurfaceTraction,
+    effects_of,
+)
 from ..contact.effects.friction import FrictionTraction
+from ..contact.effects.partial_slip import PartialSlip
 from ..contact.effects.stress import StressPart, SubsurfaceStress
 from ..contact.result import ContactResult
 from ..elasticity.stress.maxima import Maximum
@@ -18,6 +26,8 @@ from ..errors import DescriptionError, PlanError, nearest
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from ..scene.scenes import ContactScene
 
     Map = NDArray[np.float64]
 
@@ -55,8 +65,8 @@ def stress_below(
 ) -> StressPart:
     """Stress in the lower body of a contact that is solved already.
 
-    The pressure of a contact without `FrictionCoupling` does not depend on friction, so that one
-    solve serves all coefficients.
+    The pressure of a contact without `FrictionCoupling` (or `PartialSlip` with `coupled`) does not
+    depend on friction, so that one solve serves all coefficients.
 
     Parameters
     ----------
@@ -65,7 +75,7 @@ def stress_below(
     effect : SubsurfaceStress, optional
         Depths, what to keep, coefficients for further maxima; the default if not given.
     friction : FrictionTraction, optional
-        Friction in place of that of the scene.
+        Sliding friction in place of the tractions of the scene.
 
     Returns
     -------
@@ -75,7 +85,8 @@ def stress_below(
     Raises
     ------
     PlanError
-        If the lower body is rigid, or has no planes where they are wanted.
+        If the lower body is rigid, has no planes where they are wanted, or if the pressure depends
+        on the friction that is to be replaced.
 
     Examples
     --------
@@ -98,16 +109,52 @@ def stress_below(
     0.96
     """
     effect = effect if effect is not None else SubsurfaceStress()
-    plan, scene = result.plan, result.plan.scene
-    replaced = (SubsurfaceStress, FrictionTraction) if friction is not None else SubsurfaceStress
-    kept = tuple(one for one in scene.effects if not isinstance(one, replaced))
-    new = (friction, effect) if friction is not None else (effect,)
+    scene = _scene_of(result, effect, friction)
+    plan, attraction = result.plan, scene.effect(Attraction)
+    contact = SolvedContact(
+        scene,
+        plan.grid,
+        result.pressure,
+        result.displacement,
+        result.gap,
+        plan.accuracy.threads,
+        attracted=None
+        if attraction is None
+        else attraction.attracted_of(result.of(type(attraction))),
+    )
+    law = friction or scene.effect(SurfaceTraction)
+    if law is not None:
+        part = result.of(type(law)) if friction is None else friction.observe(contact)
+        contact = contact._replace(tractions=law.tractions(part))
+    return effect.observe(contact)
+
+
+def _scene_of(
+    result: ContactResult, effect: SubsurfaceStress, friction: FrictionTraction | None
+) -> ContactScene:
+    """Scene of a result with another choice of stresses and, if given, of friction."""
+    scene = result.plan.scene
+    new: tuple[ContactEffect[Any], ...] = (effect,)
+    kept = tuple(one for one in effects_of(scene) if not isinstance(one, SubsurfaceStress))
+    if friction is not None:
+        _check_replaced(scene)
+        new = (friction, effect)
+        kept = tuple(one for one in kept if not isinstance(one, SurfaceTraction))
     scene = evolve(scene, effects=(*kept, *new))
     if lacking := [item for one in new for item in one.lacks(scene)]:
         raise PlanError(f"stress_below needs {'; '.join(lacking)}")
-    threads = plan.accuracy.threads
-    contact = Contact(scene, plan.grid, result.pressure, result.displacement, result.gap, threads)
-    return effect.observe(contact)
+    return scene
+
+
+def _check_replaced(scene: ContactScene) -> None:
+    """Refuse another friction where the pressure of the result depends on that of its scene."""
+    slip = scene.effect(PartialSlip)
+    if scene.effect(DisplacementTerm) is None and not (slip and slip.couples(scene)):
+        return
+    raise PlanError(
+        "stress_below cannot replace friction that acts back on the pressure (FrictionCoupling, "
+        "PartialSlip(coupled=True)): solve the scene with the other friction"
+    )
 
 
 def maximum_planes(

@@ -1,12 +1,14 @@
 """Accuracy and cost: error of each setting against a reference, with its counts and seconds.
 
-table            Table of accuracy studies: what is solved, over which settings, against which
-                 reference.
-contact_studies  Accuracy of contact solvers beyond a single contact: slip, adhesion, histories,
-                 curves, lines.
-scene_cost   Cost of accuracy of a scene, by its kind: table, numbers, picture and CSV file.
-report       Report of a work-precision study: table, numbers, advice, picture and CSV file.
-separation   Work and precision of a separation under an imposed force: error of the release time.
-contact      Work-precision of a contact over tolerance and grid, by solver and by effect.
-effects      Cost of each effect of a contact.
+table               Table of studies of accuracy and of hard cases.
+contact_studies     Accuracy of contact solvers: methods, slip, adhesion, histories, curves, lines.
+separation_studies  Accuracy of separations: release times of films.
+hard                Hard cases: where a plain method loses all digits, never ends, or has no answer.
+releases            Release of a mass from a film: four cases that two other codes solve.
+timing              CPU seconds and counts of a run.
+scene_cost          Cost of accuracy of a scene, by its kind: table, numbers, picture and CSV file.
+report              Report of a work-precision study: table, numbers, advice, picture and CSV file.
+separation          Work and precision of a separation under an imposed force.
+contact             Work-precision of a contact over tolerance and grid, by solver and by effect.
+effects             Cost of each effect of a contact.
 """

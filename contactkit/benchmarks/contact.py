@@ -129,7 +129,12 @@ def _smaller(scene: ContactScene, accuracy: Accuracy) -> Accuracy:
     return next((a for a in fewer if a.shape < accuracy.shape and _resolves(scene, a)), accuracy)
 
 
-def solver_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) -> WorkPrecision:
+def solver_sweep(
+    scene: ContactScene,
+    accuracy: Accuracy,
+    progress: Progress,
+    clock: Callable[[], float] = time.perf_counter,
+) -> WorkPrecision:
     """Error of the pressure over the tolerance, for the three solvers.
 
     The error is that of the whole map, ``|p - p_ref|/|p_ref|`` in the 2-norm. The reference is
@@ -155,7 +160,15 @@ def solver_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) ->
             )
             for rtol in tolerances
         ]
-    return sweep(settings, size, quantity="pressure map", floor=floor, repeats=0, progress=progress)
+    return sweep(
+        settings,
+        size,
+        quantity="pressure map",
+        floor=floor,
+        repeats=0,
+        progress=progress,
+        clock=clock,
+    )
 
 
 def _frozen(scene: ContactScene, accuracy: Accuracy) -> tuple[ContactScene, Accuracy]:

@@ -1,4 +1,4 @@
-"""Accuracy of contact solvers beyond a single contact: slip, adhesion, histories, curves, lines.
+"""Accuracy of contact solvers: methods, slip, adhesion, histories, curves, lines.
 
 Errors are against a closed form, or against the finest setting where there is none. Counts are
 convolutions, applications of the operators.
@@ -11,6 +11,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from attrs import evolve
 
 from ..accuracy import Accuracy
 from ..adhesion import maugis_dugdale
@@ -25,21 +26,35 @@ from ..contact.effects.plastic_history import PlasticHistory
 from ..contact.effects.plasticity import HardnessLimit
 from ..contact.press import press
 from ..contact.solve import solve_unwarned
+from ..files.scenes import load_liquid, load_material
 from ..planning import plan
 from ..reference import hertz, partial_slip
 from ..scene.interface import Body, Interface
 from ..scene.loading import Approach, Pressing, TangentialStep
 from ..scene.materials import Layer, Material, RigidBase, Stack
+from ..scene.meniscus import Meniscus
 from ..scene.rough_surfaces import SelfAffineRoughness
 from ..scene.scenes import ContactScene
 from ..scene.surfaces import Paraboloid
 from ..scene.window import Window
 from ..work_precision import Point
+from .contact import solver_sweep
 
 if TYPE_CHECKING:
     from ..contact.result import ContactResult
 
-__all__ = ["adhesion", "adhesive_sphere", "coupled", "curve", "history", "lines", "slip"]
+__all__ = [
+    "adhesion",
+    "adhesive_sphere",
+    "coupled",
+    "curve",
+    "hertzian",
+    "history",
+    "lines",
+    "methods",
+    "rough_steel",
+    "slip",
+]
 
 E, NU, MU, RADIUS, LOAD = 70e9, 0.3, 0.3, 1e-3, 1.0  # glass; N
 GLASS = Material(young_modulus=E, poisson_ratio=NU, hardness=0.7e9)
@@ -62,6 +77,50 @@ def _scene(loading: Any, *effects: Any, solid: Any = GLASS) -> ContactScene:
 
 def _solved(made: ContactScene, grid: int, rtol: float = 1e-8) -> ContactResult:
     return solve_unwarned(plan(made, Accuracy(grid=grid, rtol=rtol)))
+
+
+def rough_steel(*effects: Any, solid: Any = None, pressure: float = 2e8) -> ContactScene:
+    """Steel under a rough rigid flat with water between them, 2 um wide: for 256 x 256 pixels."""
+    rough = SelfAffineRoughness(rms=2e-9, hurst=0.8, rolloff=1e-6, cutoff=62.5e-9, seed=1)
+    angle = math.radians(60.0)
+    water = Meniscus(
+        liquid=load_liquid("water"), contact_angle_lower=angle, contact_angle_upper=angle
+    )
+    return ContactScene(
+        interface=Interface(
+            lower=Body(solid=solid or load_material("bearing-steel")),
+            upper=Body(surface=rough),
+            meniscus=water,
+        ),
+        window=Window(width=2e-6),
+        loading=Pressing(pressure=pressure),
+        effects=effects,
+    )
+
+
+def methods() -> list[Point]:
+    """Error of the pressure map of a rough contact over the tolerance, by method; CPU seconds."""
+    scene, accuracy = rough_steel(HalfSpace()), Accuracy(grid=256)
+    swept = solver_sweep(scene, accuracy, lambda done: None, clock=time.process_time)
+    return list(swept.points)
+
+
+def hertzian() -> list[Point]:
+    """Maximum pressure, approach and contact radius of a sphere against Hertz, over the grid."""
+    points = []
+    for pixels in (8, 16, 32, 64, 128):
+        made = _scene(Pressing(force=LOAD))
+        window = Window(width=2.5 * HERTZ.contact_radius, periodic=False)
+        found = _solved(evolve(made, window=window), int(2.5 * pixels))
+        errors = {
+            "maximum pressure": found.max_pressure / HERTZ.peak_pressure,
+            "approach": found.approach / HERTZ.approach,
+            "contact radius": math.sqrt(found.contact_area / math.pi) / HERTZ.contact_radius,
+        }
+        cost = found.work.seconds, found.work.n_operator_applications
+        label = f"{pixels} pixels"
+        points += [_point(name, label, abs(r - 1.0), *cost) for name, r in errors.items()]
+    return points
 
 
 def slip() -> list[Point]:

@@ -32,7 +32,7 @@ def cost(
 ) -> None:
     """Measure error against computing time for a scene.
 
-    SCENE is a scene file, or the name of a scene or of an accuracy study of contactkit.
+    SCENE is a scene file, or the name of a scene, an accuracy study or a hard case of contactkit.
     """
     job = Job("cost", scene, settings, out, overwrite, as_json)
     study = None if settings else _study(scene)
@@ -40,7 +40,7 @@ def cost(
 
 
 def _study(name: str) -> Any:
-    """An accuracy study of that name, if there is one; a scene has the name otherwise."""
-    from ..benchmarks.table import STUDIES
+    """A study or a hard case of that name, if there is one; a scene has the name otherwise."""
+    from ..benchmarks.table import HARD_CASES, STUDIES
 
-    return STUDIES.get(name)
+    return STUDIES.get(name) or HARD_CASES.get(name)

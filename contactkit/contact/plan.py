@@ -29,6 +29,7 @@ from .effects.base import (
     LoadHistory,
     LoadTerm,
     PressureBound,
+    SurfaceTraction,
     effects_of,
 )
 from .effects.friction import FrictionTraction
@@ -49,6 +50,7 @@ _SINGLE_ROLES = (
     LoadTerm,
     DisplacementTerm,
     Attraction,
+    SurfaceTraction,
 )  # one effect of each at most
 _LARGEST = 1e3  # pressure over E*, or approach over window: beyond, round-off is all there is
 _WIDEST = 1e6  # side of a window [m]

@@ -9,7 +9,7 @@ from attrs import evolve
 
 from ..errors import NotSimulatedError
 from ..scene.rough_surfaces import Heights
-from .effects.base import Contact, FixedHardness, HardnessLaw
+from .effects.base import FixedHardness, HardnessLaw, SolvedContact
 from .effects.plastic_history import PlasticHistory, PlasticHistoryPart
 from .effects.plasticity import AT_HARDNESS, HardnessLimit
 from .outer.load import solve_loaded
@@ -238,7 +238,11 @@ def _deepest(plan: ContactPlan, solved: Solved, state: _State) -> tuple[Map, ...
 
 
 def _row(
-    plan: ContactPlan, solved: Solved, contact: Contact, is_plastic: NDArray[np.bool_], flow: Map
+    plan: ContactPlan,
+    solved: Solved,
+    contact: SolvedContact,
+    is_plastic: NDArray[np.bool_],
+    flow: Map,
 ) -> _Row:
     pixel, p = plan.grid.pixel_area, contact.pressure
     return _Row(

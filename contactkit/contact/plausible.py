@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..validity import ValidityNumber
-from .effects.base import Attraction, Contact
+from .effects.base import Attraction, SolvedContact
 from .effects.elasticity import contact_modulus
 from .solver.optimality import ROUNDED
 
@@ -37,12 +37,12 @@ def is_even(heights: Map) -> bool:
     return spread <= ROUNDED * largest
 
 
-def check_sizes(contact: Contact, *, even: bool) -> tuple[ValidityNumber, ...]:
+def check_sizes(contact: SolvedContact, *, even: bool) -> tuple[ValidityNumber, ...]:
     """Evaluate the sizes of a solved contact that its slope and peak pressure do not show.
 
     Parameters
     ----------
-    contact : Contact
+    contact : SolvedContact
         The solved contact.
     even : bool
         Whether the heights of both bodies together are even; see `is_even`.
@@ -57,7 +57,7 @@ def check_sizes(contact: Contact, *, even: bool) -> tuple[ValidityNumber, ...]:
     return tuple(found)
 
 
-def _modulus(contact: Contact) -> ValidityNumber:
+def _modulus(contact: SolvedContact) -> ValidityNumber:
     materials = [m for stack in contact.scene.interface.stacks for m in stack.materials]
     softest = min(materials, key=lambda one: one.young_modulus)
     stiffest = max(materials, key=lambda one: one.young_modulus)
@@ -72,7 +72,7 @@ def _modulus(contact: Contact) -> ValidityNumber:
     )
 
 
-def _window(contact: Contact) -> ValidityNumber:
+def _window(contact: SolvedContact) -> ValidityNumber:
     sides = [n * d for n, d in zip(contact.grid.shape, contact.grid.pixel_size, strict=True)]
     pixel = max(contact.grid.pixel_size)
     return ValidityNumber(
@@ -85,7 +85,7 @@ def _window(contact: Contact) -> ValidityNumber:
     )
 
 
-def _mean_pressure(contact: Contact) -> ValidityNumber:
+def _mean_pressure(contact: SolvedContact) -> ValidityNumber:
     modulus, mean = contact_modulus(contact.scene), float(contact.pressure.mean())
     return ValidityNumber(
         name="mean pressure over E*",

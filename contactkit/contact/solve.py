@@ -13,7 +13,14 @@ from ..errors import ConvergenceError, DescriptionError, InfeasibleError
 from ..frozen import FrozenDict
 from ..scene.plan import check_plan
 from ..validity import warn
-from .effects.base import AttractedContact, Attraction, Contact, LoadTerm, effects_of
+from .effects.base import (
+    AttractedContact,
+    Attraction,
+    LoadTerm,
+    SolvedContact,
+    SurfaceTraction,
+    effects_of,
+)
 from .effects.partial_slip import PartialSlip
 from .effects.plastic_history import PlasticHistory
 from .effects.plasticity import HardnessLimit
@@ -164,17 +171,20 @@ def _observed(plan: ContactPlan, solved: Solved, counter: WorkCounter) -> Solved
     """Add the parts of the effects that observe the contact."""
     contact, parts = solved.contact, dict(solved.parts)
     _check_fits(plan, contact, solved.solution.energy)
-    for effect in effects_of(plan.scene):
+    # Tractions come first: the others may depend on them.
+    for effect in sorted(effects_of(plan.scene), key=lambda e: not isinstance(e, SurfaceTraction)):
         begun = time.perf_counter()
         if type(effect) not in parts and (part := effect.observe(contact)) is not None:
             if isinstance(effect, LoadTerm) and effect.needs_balance(contact, part):
                 part = effect.estimated(part, self_consistent_force(plan, effect))
             parts[type(effect)] = part
             counter.clock(effect.name, begun)
-    return solved._replace(parts=parts)
+        if isinstance(effect, SurfaceTraction):
+            contact = contact._replace(tractions=effect.tractions(parts[type(effect)]))
+    return solved._replace(contact=contact, parts=parts)
 
 
-def _check_fits(plan: ContactPlan, contact: Contact, energy: float) -> None:
+def _check_fits(plan: ContactPlan, contact: SolvedContact, energy: float) -> None:
     """Refuse a contact whose numbers left the range of a computer's on the way."""
     load = plan.mean_pressure
     is_lost = load is not None and load > 0.0 and not contact.pressure.any()

@@ -10,5 +10,6 @@ csv_rows         Rows of CSV files, without formulas.
 results          Result files: npz with a JSON header, and CSV.
 deforming_results
                  Results of deforming bodies as arrays and a header, and back.
+curves           Saved curves: columns with their units, numbers and sources, and back.
 contact_results  Contact results as arrays and a header of plain values, and back.
 """

@@ -10,7 +10,7 @@ import attrs
 import numpy as np
 
 from ..accuracy import Accuracy
-from ..contact.effects.base import Attraction, Contact
+from ..contact.effects.base import Attraction, SolvedContact
 from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
 from ..contact.validity import check_contact
@@ -71,7 +71,7 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
         if one.shape != grid.shape or one.dtype != np.float64:
             raise ValueError(f"{key} is {one.shape} of {one.dtype}, not {grid.shape} of float64")
     parts = {CONTACT_EFFECTS.find(n): _decode(p, arrays) for n, p in header["parts"].items()}
-    contact = Contact(scene, grid, maps["pressure"], maps["displacement"], maps["gap"])
+    contact = SolvedContact(scene, grid, maps["pressure"], maps["displacement"], maps["gap"])
     attraction = scene.effect(Attraction)
     if attraction is not None and type(attraction) in parts:
         contact = contact._replace(attracted=attraction.attracted_of(parts[type(attraction)]))

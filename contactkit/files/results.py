@@ -22,7 +22,7 @@ from ..scene.result import Result
 from ..scene.scenes import SeparationScene, SlidingScene
 from ..separation.curve_result import Work
 from ..separation.deforming.result import DeformingResult
-from ..separation.motion.state import restored_state
+from ..separation.motion.state import MotionState, restored_state
 from ..separation.plan import Plan, plan
 from ..separation.results import SeparationResult, extremes_of, pulls_of_cycles
 from ..separation.sliding.plan import plan_sliding
@@ -34,6 +34,7 @@ from .contact_results import pack_contact, unpack_contact
 from .csv_rows import csv_line
 from .deforming_results import pack_deforming, unpack_deforming
 from .scenes import structure, unstructure, write_whole
+from .structure import renamed
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -47,6 +48,7 @@ __all__ = [
     "AnyResult",
     "from_bytes",
     "load_result",
+    "read_state",
     "save_csv",
     "save_npz",
     "save_result",
@@ -193,6 +195,8 @@ def _unpacked(header: dict[str, Any], columns: Arrays, name: str) -> AnyResult:
         return unpack_contact(header, columns, name)
     if header.get("kind") == "deforming":
         return unpack_deforming(header, columns, name)
+    if header.get("kind") == "curve":
+        raise ValueError("it is a curve, which read_curve reads")
     if header.get("kind") == "sliding":
         return _unpack_sliding(header, columns, name)
     return _unpack_separation(header, columns, name)
@@ -223,6 +227,14 @@ def _pack_separation(result: SeparationResult) -> dict[str, Any]:
     }
 
 
+def read_state(state: Mapping[str, Any]) -> MotionState:
+    """Return the state at the end of a motion, as a result file has it."""
+    for key in sorted(state.keys() - set(MotionState._fields)):
+        hint = renamed(key) or "solve its scene again"
+        raise DescriptionError(f"state.{key}", state[key], "be left out: it is no field", hint=hint)
+    return restored_state(state)
+
+
 def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> SeparationResult:
     scene = structure(header["scene"], SeparationScene, name)
     made = plan(scene, Accuracy(**header["accuracy"]))
@@ -242,7 +254,7 @@ def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> Se
         header["message"],
         columns,
         header["impulses"],
-        restored_state(state) if state is not None else None,
+        read_state(state) if state is not None else None,
         _checked(made, columns, header.get("validity")),
         Work(**header["work"]),
         extremes,

@@ -50,11 +50,15 @@ _T = TypeVar("_T")
 _RENAMED = {
     "opening": """[loading] with kind = "imposed-speed", "imposed-force" or "imposed-time\"""",
     "pressing": """[loading] with kind = "pressing" (a pressure or a force) or "approach\"""",
-    "tension": "strength, the tension at which the whole liquid tears",
+    "tension": "strength, the tension at which the full film cavitates",
     "sliding": """[loading] with kind = "sliding\"""",
     "damping": """the planform of a body: upper = { shape = "flat", planform = { shape = "ring", """
     """... } }""",
-    "tension_limits": "strengths and cavity_pressures [Pa]: two numbers say how a liquid tears",
+    "tear_time": "inception_time",
+    "heal_time": "reformation_time",
+    "n_tears": "n_inceptions",
+    "n_heals": "n_reformations",
+    "tension_limits": "strengths and cavity_pressures [Pa]: two numbers say how a liquid cavitates",
 }
 
 

@@ -3,7 +3,7 @@
 squeeze_film      Squeeze film: viscous force and impulse of an opening gap.
 film_limits       Viscous force with a cavitation pressure or a limiting shear strength.
 disc_cavity       Cavity in the middle of a disc of film: edge, force, inflow.
-torn_film         Memory of a film that was torn.
+rupture_history   Rupture history: at which gap the film ruptured at each radius.
 constant_force    Time to open a film under a constant force.
 couette_flat      Couette film between sliding flats; contact-angle hysteresis.
 couette_sphere    Couette film under a sliding sphere.

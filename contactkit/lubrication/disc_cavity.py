@@ -1,6 +1,6 @@
 r"""Cavity in the middle of a disc of film between flats: its edge, its force, what flows in.
 
-Within the edge the liquid is torn and has one pressure; between edge and rim the film is full, and
+Within the edge the film has ruptured and has one pressure; between edge and rim it is full, and
 Reynolds' equation has a closed solution:
 
 .. math:: k \, r \, p' = \tfrac12 v r^2 + C, \qquad
@@ -138,7 +138,7 @@ def film_ring(rho: float, rim_square: float, k: float, drop: float, speed: float
 
     Examples
     --------
-    The cavity of an opening three times as fast as the first one that tears the film:
+    The cavity of an opening three times as fast as the first one at which the film cavitates:
 
     >>> k = 5e-6**3 / 1.2
     >>> speed = 3.0 * 4.0 * k * 1e6 / 3.175e-3**2

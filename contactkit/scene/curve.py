@@ -6,7 +6,7 @@ import abc
 from collections.abc import Mapping
 from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from attrs import fields
 
@@ -14,7 +14,8 @@ from .._lazy import above
 from ..errors import DescriptionError, nearest
 from ..export.contents import Contents
 from ..validity import ValidityNumber
-from .tabular import Tabular, curve_contents
+from .answer import Answer
+from .tabular import curve_contents
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,7 +25,7 @@ __all__ = ["Curve", "Shown"]
 Shown = Mapping[str, tuple[tuple[str, ...], str]]
 
 
-class Curve(Tabular):
+class Curve(Answer):
     """Answer of many solves along one axis: a load, a humidity, an approach, a number, a time.
 
     A subclass is an attrs class. Its fields with a unit in their metadata are columns where they
@@ -34,10 +35,15 @@ class Curve(Tabular):
 
     __slots__ = ()
 
-    axis: ClassVar[str]
-    """Name of the column that the others are over, or of what counts the points."""
-    shown: ClassVar[Shown] = {}
-    """Figures by name: the columns they draw, and what over; the axis if empty."""
+    @property
+    @abc.abstractmethod
+    def axis(self) -> str:
+        """Name of the column that the others are over, or of what counts the points."""
+
+    @property
+    def shown(self) -> Shown:
+        """Figures by name: the columns they draw, and what over; the axis if empty."""
+        return {}
 
     @property
     @abc.abstractmethod
@@ -118,29 +124,13 @@ class Curve(Tabular):
         return "\n".join(self.sources)
 
     def save(self, path: str | Path) -> Path:
-        """Write all columns to an npz file without pickle, whole or not at all.
-
-        Units, scalars, title, message and sources are in its ``header``, a JSON text.
-        """
-        known = self.table()
-        header = {
-            "title": self.title,
-            "axis": self.axis,
-            "units": {name: unit for name, (_, unit) in known.items()},
-            "scalars": self.scalars(),
-            "status": self.status,
-            "message": self.message,
-            "references": self.cite(),
-        }
-        columns = {name: values for name, (values, _) in known.items()}
-        written: Path = above("save_npz")(path, columns, header)
+        """Write all columns to an npz file without pickle; `read_curve` reads it."""
+        written: Path = above("save_curve")(self, path)
         return written
 
-    def __str__(self) -> str:
-        numbers = self.scalars()
-        width = max(map(len, numbers), default=0)
-        lines = [f"  {name:{width}s}  {v:.6g} {unit}" for name, (v, unit) in numbers.items()]
-        return "\n".join([self.message, *lines])
+    @property
+    def _headline(self) -> str:
+        return self.message
 
 
 def _is_number(value: Any) -> bool:

@@ -13,10 +13,10 @@ from .._lazy import above
 from ..errors import DescriptionError
 from ..export.contents import Quantity
 from ..validity import ValidityNumber
+from .answer import Answer
 from .effect import Effect
 from .plan import ScenePlan
 from .scales import Scaled, Scales
-from .tabular import Tabular
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["Result"]
 
 
-class Result(Tabular):
+class Result(Answer):
     """Result of a plan: curves or maps, numbers, and the part of each effect.
 
     ``result["gap"]`` is a column by its name, ``result.of(kind)`` what an effect did, and
@@ -37,16 +37,6 @@ class Result(Tabular):
     @abc.abstractmethod
     def plan(self) -> ScenePlan:
         """Plan that was run."""
-
-    @property
-    @abc.abstractmethod
-    def status(self) -> str:
-        """End of the run, in a word."""
-
-    @property
-    @abc.abstractmethod
-    def message(self) -> str:
-        """End of the run, in a sentence."""
 
     @property
     @abc.abstractmethod
@@ -77,18 +67,10 @@ class Result(Tabular):
     def of(self, kind: Any) -> Any:
         """Return what an effect did; refuse one that the scene does not list."""
 
-    @abc.abstractmethod
-    def scalars(self) -> dict[str, tuple[float, str]]:
-        """Return the numbers of the run, each with its unit."""
-
     @property
     @abc.abstractmethod
     def scales(self) -> Scales:
         """Reference scales by the SI unit of the quantities that they belong to."""
-
-    @abc.abstractmethod
-    def unit(self, name: str) -> str:
-        """Return the SI unit of a column."""
 
     def scaled(self, name: str) -> Scaled:
         """Return a column or a number over the scale of its unit, with the name of the scale.
@@ -208,18 +190,6 @@ class Result(Tabular):
         """Pickle the fields; arrays are read-only again in the copy."""
         kind: Any = type(self)  # an attrs class, as every result is
         return _restored, (kind, [getattr(self, a.name) for a in fields(kind)])
-
-    def _repr_html_(self) -> str:
-        """Status and numbers in a notebook."""
-        from ..export.html import numbers_table
-
-        return numbers_table(f"{self.status}: {self.message}", self.scalars())
-
-    def __str__(self) -> str:
-        numbers = self.scalars()
-        width = max(map(len, numbers), default=0)
-        lines = [f"  {name:{width}s}  {v:.6g} {unit}" for name, (v, unit) in numbers.items()]
-        return "\n".join([f"{self.status}: {self.message}", *lines])
 
 
 def _restored(kind: type[Result], values: list[Any]) -> Result:

@@ -5,13 +5,13 @@ any_plan       Plan by the engine that the effects ask for: rigid or deforming b
 plan           Plan of a separation: the checked scene, its liquid, and each effect prepared once.
 bodies         Checks of the two bodies: rigid, flats or spheres, with room for the film.
 face           Film on a face that is no disc: damping law, and cavity on a grid.
-cavity         Cavity of a film that is pulled apart, with the memory of what was torn.
+cavity         Cavity of a film that is pulled apart, with the history of its rupture.
 film           Sum of the prepared forces, and the limits of the liquid.
 simulate       Run of a plan: curve of a speed, impulse of a time, or motion under a pull.
 first_closing  Bodies that close before a rising pull opens them.
 prescribed     Separations at an imposed speed, or within an imposed time.
 vibration      Separation at an imposed speed with a vibration of the gap.
-torn_path      Film that tears, along an imposed motion.
+cavity_points  Film that cavitates, along an imposed motion.
 motion_curves  Curves of a motion, computed when asked for.
 refine         Points between the steps of a motion where straight lines need them.
 bridge_end     Distance of a bridge to its end, which lines of curves follow.

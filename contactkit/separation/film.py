@@ -49,7 +49,7 @@ class Film:
     end: float
     full_gap: float
     cavity: Cavitation | None = None
-    """How the film tears, where that is remembered; None if its limits need no memory."""
+    """How the film cavitates, where that is remembered; None if its limits need no memory."""
     kinks: tuple[float, ...] = field(init=False)
     release: float = field(init=False)
     recontact: float = field(init=False)
@@ -200,8 +200,8 @@ class Film:
     def at(self, gap: float, speed: float, held: float | None = None) -> ForcesAt:
         """Return each force at a gap and a speed, evaluated once.
 
-        `held` is what a film that tears holds around its cavity [N], in place of what it would
-        hold while it is whole.
+        `held` is what a film that cavitates holds around its cavity [N], in place of what it would
+        hold while it is full.
         """
         named: dict[str, float] = {}
         newtonian: dict[str, float] = {}

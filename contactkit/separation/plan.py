@@ -124,7 +124,7 @@ class Plan(ScenePlan):
         DescriptionError
             If a gap is negative, or zero where the force is infinite, or a number is not finite.
         PlanError
-            If the force depends on the motion before: a film that tears and remembers it.
+            If the force depends on the motion before: a film that cavitates and remembers it.
 
         Examples
         --------
@@ -144,7 +144,7 @@ class Plan(ScenePlan):
 
         if self.film.cavity is not None:
             raise PlanError(
-                "plan.force(gap, speed) is not known for a film that tears: it depends on the "
+                "plan.force(gap, speed) is not known for a film that cavitates: it depends on the "
                 "motion before; take ck.simulate(plan), or "
                 'TensionLimit(strength=..., cavity="truncated")'
             )
@@ -372,11 +372,11 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
         if isinstance(effect, SeparationForce):
             laws[type(effect)] = _law(prepared, effect)
         elif isinstance(effect, FilmLimit):
-            tears = effect.cavity_law(prepared)
-            if tears is None:
+            law = effect.cavity_law(prepared)
+            if law is None:
                 limits.append((effect.limit, effect.prepare(prepared)))
             else:
-                cavity = tears
+                cavity = law
         elif isinstance(effect, FilmEnd):
             end = effect.prepare(prepared)
     end = min([end, *(law.end for law in laws.values())])

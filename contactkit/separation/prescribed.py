@@ -15,13 +15,13 @@ from ..numerics.lines import with_middles
 from ..scene.loading import ImposedSpeed, ImposedTime
 from ..units import quantity_text
 from .bridge_end import distance_to_end
+from .cavity_points import CavityPoint, Known, cavity_points
 from .curve_result import LateColumns, Work
 from .effects.base import CAVITY, LIMIT, FilmStatus, LimitKind, SeparationForce
 from .effects.force_law import law_impulse
 from .film import Film
 from .plan import Plan
 from .results import SeparationResult, extremes_of, with_late_curves
-from .torn_path import Known, TornPoint, torn_points
 from .validity import check
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ __all__ = [
     "impulses_so_far",
     "limited_name",
     "simulated",
-    "torn_row",
+    "cavity_row",
     "within_time",
 ]
 
@@ -107,14 +107,14 @@ def _at_speed(
     plan: Plan, loading: ImposedSpeed, gaps: Sequence[float], known: dict[float, Known]
 ) -> dict[str, Curve]:
     """Curves at some gaps [m] of an opening at a speed."""
-    torn, film = _torn(plan, loading, gaps, known), plan.film
-    columns = _forces_at_speed(plan, loading, gaps, torn)
+    cavity, film = _cavity(plan, loading, gaps, known), plan.film
+    columns = _forces_at_speed(plan, loading, gaps, cavity)
     for kind, law in film.laws.items():
         if kind.so_far is None:
             continue
-        if kind is film.limited and torn:
-            running = [point.impulse for point in torn]
-            running += [running[-1]] * (len(gaps) - len(torn))
+        if kind is film.limited and cavity:
+            running = [point.impulse for point in cavity]
+            running += [running[-1]] * (len(gaps) - len(cavity))
         else:
             force = _limited(film) if kind is film.limited else law.force
             running = _running(force, loading.speed, gaps, _end(plan, kind))
@@ -134,12 +134,12 @@ def _end(plan: Plan, kind: type[SeparationForce]) -> float:
 
 
 def _forces_at_speed(
-    plan: Plan, loading: ImposedSpeed, gaps: Sequence[float], torn: Sequence[TornPoint]
+    plan: Plan, loading: ImposedSpeed, gaps: Sequence[float], cavity: Sequence[CavityPoint]
 ) -> dict[str, Curve]:
     """Curves that need no integral, at some gaps [m]."""
     speed = loading.speed
     rows = [_forces(plan, gap, speed) for gap in gaps]
-    rows[: len(torn)] = [_with_torn(plan, *pair) for pair in zip(rows, torn, strict=False)]
+    rows[: len(cavity)] = [_with_cavity(plan, *pair) for pair in zip(rows, cavity, strict=False)]
     return {
         "time": frozen([(gap - loading.initial_gap) / speed for gap in gaps]),
         "gap": frozen(gaps),
@@ -157,7 +157,7 @@ class _SpeedLines:
     loading: ImposedSpeed
     gaps: Sequence[float]
     known: dict[float, Known]
-    """What is known of a film that tears."""
+    """What is known of a film that cavitates."""
 
     def __call__(self) -> dict[str, Curve]:
         """Return the curves by their names."""
@@ -166,8 +166,8 @@ class _SpeedLines:
 
     def _table(self, gaps: Curve) -> Curve:
         """Return all curves; the impulse by the trapezoidal rule, which is as right as lines."""
-        torn = _torn(self.plan, self.loading, gaps.tolist(), self.known)
-        columns = _forces_at_speed(self.plan, self.loading, gaps.tolist(), torn)
+        cavity = _cavity(self.plan, self.loading, gaps.tolist(), self.known)
+        columns = _forces_at_speed(self.plan, self.loading, gaps.tolist(), cavity)
         pull, time = columns["pull"], columns["time"]
         steps = 0.5 * (pull[1:] + pull[:-1]) * np.diff(time)
         impulse = np.concatenate([[0.0], np.cumsum(steps)])
@@ -220,23 +220,23 @@ def _drawn(
     return with_late_curves(plan, LateColumns({}, dict.fromkeys(columns, lines)))
 
 
-def _torn(
+def _cavity(
     plan: Plan, loading: ImposedSpeed, gaps: Sequence[float], known: dict[float, Known]
-) -> list[TornPoint]:
-    """Film that tears, at each gap up to its end; none for a film that does not remember it."""
+) -> list[CavityPoint]:
+    """Film that cavitates, at each gap up to its end; none for a film that does not remember it."""
     film, law = plan.film, plan.film.cavity
     if law is None:
         return []
     start, speed = loading.initial_gap, loading.speed
     times = [(gap - start) / speed for gap in gaps if gap <= film.end]
     rtol = plan.accuracy.time_rtol
-    return torn_points(film, law, lambda time: (start + speed * time, speed), times, rtol, known)
+    return cavity_points(film, law, lambda time: (start + speed * time, speed), times, rtol, known)
 
 
-def _with_torn(plan: Plan, row: dict[str, float], point: TornPoint) -> dict[str, float]:
-    """Row of a curve with the force of a film that tears in place of that of a whole one."""
-    torn = torn_row(plan, point)
-    return row | torn | {"pull": row["pull"] - row[limited_name(plan)] + point.force}
+def _with_cavity(plan: Plan, row: dict[str, float], point: CavityPoint) -> dict[str, float]:
+    """Row of a curve with the force of a film that cavitates in place of that of a full one."""
+    cavity = cavity_row(plan, point)
+    return row | cavity | {"pull": row["pull"] - row[limited_name(plan)] + point.force}
 
 
 def limited_name(plan: Plan) -> str:
@@ -245,8 +245,8 @@ def limited_name(plan: Plan) -> str:
     return plan.film.limited.column.name
 
 
-def torn_row(plan: Plan, point: TornPoint) -> dict[str, float]:
-    """Columns of a film that tears."""
+def cavity_row(plan: Plan, point: CavityPoint) -> dict[str, float]:
+    """Columns of a film that cavitates."""
     radius, void = (column.name for column in CAVITY)
     return {
         limited_name(plan): point.force,

@@ -15,10 +15,11 @@ from attrs import evolve, field, frozen
 from ..errors import DescriptionError, NotSimulatedError, nearest
 from ..export.contents import Contents, Quantity
 from ..files.csv_rows import write_rows
-from ..files.results import save_npz
+from ..files.curves import SavedCurve, save_curve
+from ..frozen import FrozenDict
+from ..scene.answer import Answer
 from ..scene.result import Result
 from ..scene.scales import Scale
-from ..scene.tabular import Tabular
 from .bands import BAND, RUNS, banded_point, banded_units, seed_axes
 from .store import StudyPoint
 
@@ -46,7 +47,7 @@ R_co = TypeVar("R_co", bound=Result, covariant=True)
 
 
 @frozen(eq=False)
-class Study(Tabular, Generic[R_co]):
+class Study(Answer, Generic[R_co]):
     """Points of a study, in the order of the product of the parameters, the last one fastest.
 
     Attributes
@@ -61,6 +62,8 @@ class Study(Tabular, Generic[R_co]):
     units : mapping of str to str
         Unit of each column: of the parameters, by path; of the scalar results; of ``seconds`` and
         the operation counts.
+    sources : tuple of str
+        Sources of the equations of all points.
     """
 
     points: tuple[StudyPoint, ...] = field(repr=False)
@@ -69,6 +72,38 @@ class Study(Tabular, Generic[R_co]):
     units: Mapping[str, str] = field(repr=False)
     _results: tuple[R_co | None, ...] | None = field(repr=False)
     _definitions: Mapping[str, str] = field(factory=dict, repr=False)
+    sources: tuple[str, ...] = field(default=(), repr=False)
+
+    @property
+    def status(self) -> str:
+        """``complete``, or ``incomplete`` if a point has no solution."""
+        return "incomplete" if self.failed else "complete"
+
+    @property
+    def message(self) -> str:
+        """Number of points and parameters, and what the points have to remark."""
+        over = ", ".join(_ends(paths[0])[0] for paths in self.paths)
+        lacking = f"; {len(self.failed)} without a solution" if self.failed else ""
+        noted = sum(1 for point in self.points if point.notes)
+        return f"{len(self.points)} points over {over}{lacking}" + (
+            f"; {noted} with notes" if noted else ""
+        )
+
+    def scalars(self) -> dict[str, tuple[float, str]]:
+        """Return numbers of the whole study: points, seconds and counts, added up."""
+        counts = {name: None for point in self.points for name in point.counts}
+        totals = {n: sum(point.counts.get(n, 0) for point in self.points) for n in counts}
+        return {
+            "n_points": (len(self.points), "-"),
+            "n_failed": (len(self.failed), "-"),
+            "n_solved": (self.n_solved, "-"),
+            "seconds": (sum(point.seconds for point in self.points), "s"),
+            **{name: (total, "-") for name, total in totals.items()},
+        }
+
+    def cite(self) -> str:
+        """Return the sources of the equations, one to a line."""
+        return "\n".join(self.sources)
 
     @property
     def results(self) -> tuple[R_co | None, ...]:
@@ -214,8 +249,8 @@ class Study(Tabular, Generic[R_co]):
         ...     loading=ck.Pressing(pressure=1e8),
         ...     effects=(ck.HalfSpace(),),
         ... )
-        >>> vary = {"interface.upper.surface.seed": [1, 2, 3], "loading.pressure": [5e7, 1e8]}
-        >>> found = ck.study(scene, vary, ck.Accuracy(grid=64)).bands()
+        >>> parameters = {"interface.upper.surface.seed": [1, 2, 3], "loading.pressure": [5e7, 1e8]}
+        >>> found = ck.study(scene, parameters, ck.Accuracy(grid=64)).bands()
         >>> [found.column(f"contact_fraction{end}").shape for end in ("", "_low", "_high")]
         [(2,), (2,), (2,)]
         """
@@ -244,6 +279,7 @@ class Study(Tabular, Generic[R_co]):
             banded | {name: units[name] for name in counts},
             None,
             self.scale_definitions,
+            self.sources,
         )
 
     def dimensionless(self) -> Study[R_co]:
@@ -389,19 +425,30 @@ class Study(Tabular, Generic[R_co]):
         )
         return write_rows(Path(path).with_suffix(".csv"), heads, rows)
 
-    def save_npz(self, path: str | Path) -> Path:
-        """Write all columns to an npz file, atomically.
+    def save(self, path: str | Path) -> Path:
+        """Write all columns to an npz file, atomically; `read_curve` reads it.
 
         Parameters
         ----------
         path : str or Path
-            The file; its suffix becomes ``.npz``. Each column is an array by its name, materials
-            and the like as text; ``header`` is a JSON text with units, paths and shape, and with
-            the scales of dimensionless columns.
+            The file; its suffix becomes ``.npz``. Each column is an array over the points by its
+            name, materials and the like as text. ``parts`` of what is read are ``paths``,
+            ``shape``, and ``scales``, the definitions of the units of dimensionless columns.
         """
-        columns = {name: _as_array(self.column(name)) for name in (*self.units, "status")}
-        header = {"units": dict(self.units), "paths": self.paths, "shape": self.shape}
-        return save_npz(path, columns, header | {"scales": dict(self.scale_definitions)})
+        names = (*self.units, "status")
+        parts = {"paths": self.paths, "shape": self.shape, "scales": self.scale_definitions}
+        saved = SavedCurve(
+            axis="point",
+            title="study",
+            columns=FrozenDict({name: _as_array(self.column(name)) for name in names}),
+            units=FrozenDict({"status": "-"} | dict(self.units)),
+            numbers=FrozenDict(self.scalars()),
+            status=self.status,
+            message=self.message,
+            sources=self.sources,
+            parts=FrozenDict(parts),
+        )
+        return save_curve(saved, path)
 
 
 class _Columns(Protocol):

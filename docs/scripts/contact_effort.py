@@ -2,28 +2,16 @@
 
 from __future__ import annotations
 
-import math
-import time
-from collections.abc import Callable
 from typing import Any
 
 from validation_tables import grid
 
 import contactkit as ck
+from contactkit.benchmarks.timing import best_of
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.roughness.statistics import rms_slope
 
 STEEL = ck.Material(young_modulus=210e9, poisson_ratio=0.3, hardness=7.5e9)
-
-
-def best_of(run: Callable[[], Any], repeats: int = 3) -> tuple[Any, float]:
-    """Result of a run, and the best of its CPU times [s]."""
-    found, seconds = run(), math.inf
-    for _ in range(repeats):
-        begun = time.process_time()
-        found = run()
-        seconds = min(seconds, time.process_time() - begun)
-    return found, seconds
 
 
 def rough_scene(

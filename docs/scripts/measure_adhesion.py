@@ -1,7 +1,6 @@
-"""Accuracy and cost of adhesion of maps: ``python docs/scripts/measure_adhesion.py --write``.
+"""Accuracy and cost of adhesion of maps: ``measure_adhesion.py [NAME ...] --write``.
 
-Names select some of the tables; ``--pictures`` draws those of the page instead. Seconds are those
-of the processor on one thread.
+Names select some of the tables, or ``pictures``. Seconds are those of the processor on one thread.
 """
 
 from __future__ import annotations
@@ -124,7 +123,4 @@ TABLES = {"spheres": spheres, "steps": steps}
 
 if __name__ == "__main__":
     warnings.simplefilter("ignore", ck.ValidityWarning)
-    if "--pictures" in sys.argv:
-        pictures()
-        sys.exit()
-    sys.exit(measure(TABLES, "adhesion "))
+    sys.exit(measure(TABLES, "adhesion ", pictures))

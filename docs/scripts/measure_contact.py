@@ -1,8 +1,6 @@
-"""Measure the numbers of the contact on docs/accuracy.md on this machine.
+"""Numbers of the contact on docs/accuracy.md: ``measure_contact.py [NAME ...] --write``.
 
-``python docs/scripts/measure_contact.py`` prints them, ``--write`` puts them into the page too.
-Takes a few minutes, most of it for the maps of 1024 x 1024 pixels. Names select some:
-``... hertz waves``.
+A few minutes, most of it for the maps of 1024 x 1024 pixels.
 """
 
 from __future__ import annotations
@@ -16,14 +14,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from contact_effort import best_of, fast_table, ratio_table, solver_table
+from contact_effort import fast_table, ratio_table, solver_table
 from measured_blocks import measure
 from stress_tables import depth_table, distance_table, reading_table, stress_cost_table
 from validation_tables import grid
 
 import contactkit as ck
+from contactkit.benchmarks.table import study_of
+from contactkit.benchmarks.timing import best_of
 from contactkit.elasticity.layered import compliance, normal_symbol
-from contactkit.reference import hertz
 
 DATA = Path(__file__).parents[2] / "tests" / "data"
 CASES = json.loads((DATA / "contact.json").read_text("utf-8"))
@@ -57,18 +56,14 @@ def sphere(solid: ck.Stack, width: float, cells: int, *effects: Any) -> ck.Conta
 
 
 def hertz_table() -> str:
-    """Sphere on a half-space over pixels to the contact radius."""
-    exact, rows = hertz.sphere(LOAD, RADIUS, MODULUS), []
-    for n in (8, 16, 32, 64, 128):
-        run = sphere(stack(()), 2.5 * A0, int(2.5 * n))
-        errors = (
-            run.max_pressure / exact.peak_pressure - 1.0,
-            run.approach / exact.approach - 1.0,
-            math.sqrt(run.contact_area / math.pi) / exact.contact_radius - 1.0,
-        )
-        rows.append((f"{n}", *(f"{e:+.1e}" for e in errors)))
-    head = ("pixels to the contact radius", "maximum pressure", "approach", "contact radius")
-    return grid(head, rows)
+    """Sphere on a half-space over pixels to the contact radius: the study of the table."""
+    cells: dict[str, list[str]] = {}
+    points = study_of("hertz").points()
+    methods = dict.fromkeys(point.method for point in points)
+    for point in points:
+        cells.setdefault(point.label.split()[0], []).append(f"{point.error:.1e}")
+    head = ("pixels to the contact radius", *methods)
+    return grid(head, ((pixels, *errors) for pixels, errors in cells.items()))
 
 
 def sphere_table() -> str:

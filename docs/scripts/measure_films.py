@@ -1,14 +1,14 @@
-"""Accuracy and cost of films on faces: ``python docs/scripts/measure_films.py --write``.
+"""Accuracy and cost of films on faces: ``measure_films.py [NAME ...] --write``.
 
-Names select some of the tables; ``--pictures`` draws those of the page instead. Seconds are those
-of the processor on one thread, the least of some.
+Names select some of the tables, or ``pictures``. Seconds are those of the processor on one thread,
+the least of some.
 """
 
 from __future__ import annotations
 
 import math
 import sys
-import time
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from PIL import Image
 from validation_tables import grid
 
 import contactkit as ck
+from contactkit.benchmarks.timing import best_of
 from contactkit.lubrication import reynolds
 from contactkit.lubrication.reynolds.face import Face
 
@@ -93,7 +94,7 @@ def accuracy() -> str:
     return grid(["planform", *(f"{n} cells" for n in SIZES)], rows)
 
 
-def torn_radius(sigma: float) -> tuple[float, float]:
+def cavitated_radius(sigma: float) -> tuple[float, float]:
     """Cavity radius over R, and force over that of the tension, at sigma times the onset."""
     low, high = 0.0, 1.0
     for _ in range(200):
@@ -108,7 +109,7 @@ def cavity() -> str:
     """Errors of a first opening over sigma, and of long journal bearings over the cells."""
     rows = []
     for sigma in (1.5, 3.0, 30.0, 300.0):
-        _, ratio = torn_radius(sigma)
+        _, ratio = cavitated_radius(sigma)
         exact = ratio * math.pi * R**2 * 1e6
         row, counts = [f"disc, {sigma:g} times the onset"], []
         for n in SIZES:
@@ -122,16 +123,6 @@ def cavity() -> str:
     return grid(["first opening", *(f"{n} cells" for n in SIZES), "Newton steps"], rows)
 
 
-def least(run: Callable[[], object], repeats: int = 3) -> float:
-    """Least seconds of the processor."""
-    found = math.inf
-    for _ in range(repeats):
-        begin = time.process_time()
-        run()
-        found = min(found, time.process_time() - begin)
-    return found
-
-
 def cost() -> str:
     """Seconds of a solution and of steps on discs."""
     rows = []
@@ -140,12 +131,12 @@ def cost() -> str:
         film = reynolds.GridFilm(face=face, viscosity=OIL, drop=1e6)
         full = reynolds.GridFilm(face=face, viscosity=OIL)
         repeats = 8 if n < 512 else 2
-        solved = least(lambda full=full: reynolds.solve_pressure(full, GAP, RATE), repeats)
+        solved = best_of(lambda full=full: reynolds.solve_pressure(full, GAP, RATE), repeats)[1]
         rest = reynolds.at_rest(film, 5e-6)
         first = reynolds.step_film(rest, 5.1e-6, 5e-6)
-        onset = least(lambda rest=rest: reynolds.step_film(rest, 5.1e-6, 5e-6), repeats)
+        onset = best_of(lambda rest=rest: reynolds.step_film(rest, 5.1e-6, 5e-6), repeats)[1]
         second = reynolds.step_film(first, 5.2e-6, 5e-6)
-        warm = least(lambda first=first: reynolds.step_film(first, 5.2e-6, 5e-6), repeats)
+        warm = best_of(lambda first=first: reynolds.step_film(first, 5.2e-6, 5e-6), repeats)[1]
         rows.append(
             [
                 f"{n} x {n}",
@@ -214,7 +205,5 @@ def pictures() -> None:
 TABLES = {"accuracy": accuracy, "cavity": cavity, "cost": cost}
 
 if __name__ == "__main__":
-    if "--pictures" in sys.argv:
-        pictures()
-        sys.exit()
-    sys.exit(measure(TABLES, "films "))
+    warnings.simplefilter("ignore", ck.ValidityWarning)  # full films under any tension
+    sys.exit(measure(TABLES, "films ", pictures))

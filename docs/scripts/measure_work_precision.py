@@ -3,7 +3,7 @@
 Partial slip, coupled slip, adhesion, loading history, load curve, line contact and sheets: error
 against a closed form, or the finest setting where there is none, over convolutions (applications of
 the operators). Prints the points; ``--write`` draws docs/img/work-precision-contact.png. Names
-select some of the panels: ``... slip adhesion``. Some minutes.
+select some of the panels, which are printed only: ``... slip adhesion``. Some minutes.
 """
 
 from __future__ import annotations
@@ -87,7 +87,9 @@ def draw(found: Mapping[str, Lines]) -> None:
 
 def main(asked: list[str]) -> int:
     """Measure, print and draw."""
-    names = [name for name in asked if name in TITLES] or list(TITLES)
+    names = [name for name in asked if name != "--write"] or list(TITLES)
+    if unknown := sorted(set(names) - set(TITLES)):
+        raise SystemExit(f"there is no {', '.join(unknown)}; there are {', '.join(TITLES)}")
     found = {}
     for name in names:
         found[name] = lines_of(name)
@@ -95,7 +97,7 @@ def main(asked: list[str]) -> int:
             row = "; ".join(f"{p.label}: {p.counts['convolutions']}, {p.error:.1e}" for p in points)
             sys.stdout.write(f"{name}, {label}: {row}\n")
             sys.stdout.flush()
-    if "--write" in asked:
+    if "--write" in asked and set(names) == set(TITLES):  # one picture of all panels
         draw(found)
     return 0
 

@@ -1,8 +1,8 @@
 """Blocks of the pages that hold measured numbers: seconds, errors, counts.
 
 A page holds ``<!-- measured: NAME -->`` and ``<!-- end of measured -->``. Unlike the tables of
-`tables.py` these are not checked by a test, as they differ from machine to machine; the scripts
-`measure_contact.py`, `measure_bridges.py` and `pictures.py` write them.
+`tables.py` their numbers are not checked by a test, as they differ from machine to machine;
+`pages.py` lists the scripts that write them.
 """
 
 from __future__ import annotations
@@ -31,17 +31,29 @@ def write_blocks(found: Mapping[str, str]) -> list[str]:
     return sorted(left)
 
 
-def measure(tables: Mapping[str, Callable[[], str]], prefix: str = "") -> int:
+def measure(
+    tables: Mapping[str, Callable[[], str]],
+    prefix: str = "",
+    pictures: Callable[[], None] | None = None,
+) -> int:
     """Measure the tables named on the command line, or all; print, and write with ``--write``.
 
-    A block is called as its table, behind `prefix`.
+    A block is called as its table, behind `prefix`. What is written has the pictures of the page,
+    too; ``pictures`` is a name among the tables.
     """
-    names = [a for a in sys.argv[1:] if a != "--write"] or list(tables)
+    known = [*tables, *(["pictures"] if pictures else [])]
+    asked = [a for a in sys.argv[1:] if a != "--write"]
+    if unknown := sorted(set(asked) - set(known)):
+        raise SystemExit(f"there is no {', '.join(unknown)}; there are {', '.join(known)}")
+    writes, names = "--write" in sys.argv[1:], asked or known
     found = {}
     for name in names:
-        text = found[prefix + name] = tables[name]()
-        sys.stdout.write(f"{name}\n\n{text}\n\n")
-    if "--write" in sys.argv[1:]:
-        missing = write_blocks(found)
-        sys.stdout.write(f"no page has: {', '.join(missing) or 'none missing'}\n")
+        if name in tables:
+            text = found[prefix + name] = tables[name]()
+            sys.stdout.write(f"{name}\n\n{text}\n\n")
+    if writes:
+        if pictures and "pictures" in names:
+            pictures()
+        if missing := write_blocks(found):
+            raise SystemExit(f"no page has a block {', '.join(missing)}")
     return 0

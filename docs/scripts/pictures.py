@@ -21,10 +21,11 @@ from pathlib import Path
 from typing import Any
 
 from measured_blocks import write_blocks
-from PIL import Image
+from PIL import Image, ImageChops
 from validation_tables import grid
 
 IMG = Path(__file__).parents[1] / "img"
+MARGIN = 12  # pixels of white around a figure that is joined to another
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SHOWN_EXAMPLES = (
     "area_and_theories",
@@ -147,7 +148,7 @@ def joined(folder: Path, name: str) -> Image.Image:
     """A figure of a folder, or two: beside each other by +, one below the other by /."""
     below = " / " in name
     parts = [
-        Image.open(folder / f"{one}.png").convert("RGB")
+        trimmed(Image.open(folder / f"{one}.png").convert("RGB"))
         for one in name.split(" / " if below else " + ")
     ]
     widths, heights = zip(*(one.size for one in parts), strict=True)
@@ -158,6 +159,21 @@ def joined(folder: Path, name: str) -> Image.Image:
         whole.paste(one, (0, place) if below else (place, 0))
         place += one.height if below else one.width
     return whole
+
+
+def trimmed(figure: Image.Image) -> Image.Image:
+    """A figure without its white border but for a margin: maps of equal axes leave much of it."""
+    white = Image.new("RGB", figure.size, "white")
+    left, top, right, bottom = ImageChops.difference(figure, white).getbbox()
+    width, height = figure.size
+    return figure.crop(
+        (
+            max(left - MARGIN, 0),
+            max(top - MARGIN, 0),
+            min(right + MARGIN, width),
+            min(bottom + MARGIN, height),
+        )
+    )
 
 
 def run(scene: str, command: str, folder: Path) -> str:

@@ -8,11 +8,11 @@ from typing import Any
 
 import attrs
 import numpy as np
-from contact_effort import best_of
 from validation_tables import grid
 
 import contactkit as ck
 from contactkit.app.scenes import open_scene
+from contactkit.benchmarks.timing import best_of
 from contactkit.elasticity.layer_stack import Layers
 from contactkit.elasticity.stress.measures import von_mises
 from contactkit.elasticity.stress.planes import planes

@@ -2,7 +2,7 @@
 
 The spool of a fuel injector rests on its end cap with five micrometres of oil between the faces.
 A magnet pulls with 40 N. When is the spool free, how much later is that in the cold, and what
-decides: the viscosity, or the tension at which oil tears?
+decides: the viscosity, or the tension at which oil cavitates?
 """
 
 # %% [markdown]
@@ -30,7 +30,7 @@ pull = ck.ImposedForce(initial_gap=5 * um, final_gap=25 * um, force=40.0, mass=0
 
 # %% [markdown]
 # Three effects: the capillary force at the rim, the viscous force, and a limit. The oil is
-# assumed to tear at a tension of 10 bar; a cavity then takes over a part of the face.
+# assumed to cavitate at a tension of 10 bar; a cavity then takes over a part of the face.
 
 # %%
 scene = ck.SeparationScene(
@@ -56,7 +56,7 @@ print(f"peak of film    {result.state.peak_force:.2f} N of 40 N pull")
 print(f"work            {1e6 * result.state.dissipated_work:.1f} uJ")
 
 # %% [markdown]
-# The force of the film reaches 16 N within the first instant. Then the oil tears; what holds the
+# The force of the film reaches 16 N within the first instant. Then the oil cavitates; what holds the
 # spool after that is the pressure of the surroundings on the face, 3.2 N, against a cavity.
 
 # %%
@@ -68,7 +68,7 @@ right.set_title("Forces of the film", loc="left")
 plt.show()
 
 # %% [markdown]
-# ## What if the oil does not tear?
+# ## What if the oil does not cavitate?
 #
 # Clean, degassed oil can stand a large tension for a short time. Leaving the effect out is the
 # other extreme, and it shows what the assumption is worth.
@@ -76,8 +76,8 @@ plt.show()
 # %%
 strong = evolve(scene, effects=(ck.MeniscusForce(), ck.ViscousForce()))
 held = ck.simulate(ck.plan(strong))
-print(f"tears at 10 bar  {1e3 * result.state.release_time:7.3f} ms")
-print(f"never tears      {1e3 * held.state.release_time:7.3f} ms")
+print(f"cavitates at 10 bar  {1e3 * result.state.release_time:7.3f} ms")
+print(f"never cavitates      {1e3 * held.state.release_time:7.3f} ms")
 
 # %% [markdown]
 # Without the limit there is a closed form for a massless spool, which the simulation must nearly
@@ -95,7 +95,7 @@ print(f"closed form without mass {1e3 * closed:.3f} ms")
 
 # %%
 degrees = list(range(-20, 101, 20))
-late = {"never tears": strong, "tears at 10 bar": scene}
+late = {"never cavitates": strong, "cavitates at 10 bar": scene}
 times = {
     name: [
         ck.simulate(ck.plan(evolve(one, temperature=celsius(t)))).state.release_time
@@ -118,7 +118,7 @@ ax.legend(frameon=False)
 plt.show()
 
 # %% [markdown]
-# Temperature decides only if the oil holds together. If it tears, 40 N less the force of one
+# Temperature decides only if the oil holds together. If it cavitates, 40 N less the force of one
 # atmosphere accelerate the mass, and the viscosity does not matter:
 
 # %%

@@ -147,15 +147,15 @@ plt.show()
 # %% [markdown]
 # ## Where this ends
 #
-# `plan.force` is a function of gap and speed. A film that tears is not: it remembers its cavity, and
+# `plan.force` is a function of gap and speed. A film that cavitates is not: it remembers its cavity, and
 # contactkit refuses rather than guess.
 
 # %%
-torn = evolve(scene, effects=(ck.ViscousForce(), ck.TensionLimit(strength=1e5)))
+cavitated = evolve(scene, effects=(ck.ViscousForce(), ck.TensionLimit(strength=1e5)))
 try:
-    ck.plan(torn).force(10 * um, 1e-3)
+    ck.plan(cavitated).force(10 * um, 1e-3)
 except ck.PlanError as error:
-    print(str(error)[:82])
+    print(str(error).partition(";")[0])
 
 # %% [markdown]
 # For thinner films exchange impulses or hand the mass over: forces exchanged between two programs

@@ -293,7 +293,7 @@ def _described(path: Path) -> Any:
         raise DescriptionError("FMU", str(path), "be an FMU, which is a zip archive")
     _check_archive(path)
     try:
-        with path.open("rb") as file:  # fmpy leaves one of its own open if the text is torn
+        with path.open("rb") as file:  # fmpy leaves one of its own open if the text is cut off
             found = read_model_description(file)
     except Exception as error:  # fmpy raises no narrower one
         raise DescriptionError(

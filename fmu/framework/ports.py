@@ -284,8 +284,8 @@ STEP_LIMIT = "max_steps"
 PYTHON_STEPS, NATIVE_STEPS = 30_000, 100_000
 """What it is if it is not set: at most some seconds in Python (1.5 s of a tip), 0.1 to 0.2 s in C.
 
-In one step of 1 s a pull on a stiff film takes 100 to 250, one that tears it 5000, and 80 swings
-on a spring 20 000; three to five times as many with ``rtol = 1e-11``.
+In one step of 1 s a pull on a stiff film takes 100 to 250, one at which it cavitates 5000, and 80
+swings on a spring 20 000; three to five times as many with ``rtol = 1e-11``.
 """
 
 
@@ -308,13 +308,13 @@ def tolerance(start: float) -> Port:
 def step_limit(start: int) -> Port:
     """Parameter `max_steps`: bounds what one step of the host may cost, in internal steps.
 
-    One while a film is torn counts as twenty, as it costs.
+    One while a film is cavitated counts as twenty, as it costs.
     """
     return Port(
         STEP_LIMIT,
         "-",
         causality="parameter",
-        label="most internal steps of one communication step, one of a torn film counts as 20",
+        label="most internal steps of one communication step, one of a cavitated film counts as 20",
         kind="integer",
         start=start,
         minimum=1,
@@ -353,6 +353,9 @@ def display_conversion(unit: str, display_unit: str) -> Conversion:
     return Conversion(float(f"{own.factor / shown.factor:.15g}"), 0.0)
 
 
+_FORMER = {"dp_tear": "dp_inception"}  # variables of earlier FMUs, as start values may name them
+
+
 def find_port(ports: Sequence[Port], name: str) -> Port:
     """Return the port of that name.
 
@@ -364,6 +367,8 @@ def find_port(ports: Sequence[Port], name: str) -> Port:
     for port in ports:
         if port.name == name:
             return port
+    if name in _FORMER:
+        raise DescriptionError("port", name, f"be {_FORMER[name]!r}, its name now")
     names = [port.name for port in ports]
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
     hint = f"did you mean {near[0]!r}?" if near else "there are " + ", ".join(names)

@@ -28,7 +28,7 @@ __all__ = [
     "Restorable",
 ]
 
-_LIMITS = ("dp_cav", "dp_tear", "tau_lim")
+_LIMITS = ("dp_cav", "dp_inception", "tau_lim")
 Pulling = Callable[[float], float]
 """Pull [N] at a time [s]."""
 

@@ -21,7 +21,7 @@ from ...separation.plan import Plan, plan
 from .records import Film, FilmTables, Law, Rate, Scale, Table
 from .tables import tabulate
 
-__all__ = ["FINE", "PreparedFilm", "can_tear", "free_liquid", "moving", "prepared_film"]
+__all__ = ["FINE", "PreparedFilm", "can_cavitate", "free_liquid", "moving", "prepared_film"]
 
 FINE = Accuracy(time_rtol=1e-11)
 """Accuracy of the laws behind the tables; their splines are 100 times finer than by default."""
@@ -127,7 +127,7 @@ def _check_face(scene: SeparationScene) -> None:
         raise PlanError(
             "TensionLimit has no native form on a face that is no even disc: what its cavity "
             "remembers is a map of the liquid, which the kernel does not hold; leave it out for a "
-            "film that never tears, or run the scene by ck.simulate"
+            "film that never cavitates, or run the scene by ck.simulate"
         )
 
 
@@ -157,7 +157,7 @@ def _film(common: _Common, fraction: float) -> Film:
     rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
     is_liquid = any(kind.newtonian is not None for kind in film.laws)
     shape = viscous_film(prepared) if is_liquid else None
-    disc = shape if can_tear(made.scene) else None
+    disc = shape if can_cavitate(made.scene) else None
     laws = [law for effect in forces for law in _laws(common, effect, film.laws[type(effect)])]
     if len(laws) > Film.most("laws"):
         raise PlanError(
@@ -175,7 +175,7 @@ def _film(common: _Common, fraction: float) -> Film:
     )
 
 
-def can_tear(scene: SeparationScene) -> bool:
+def can_cavitate(scene: SeparationScene) -> bool:
     """Whether the film of a scene may have a cavity: one between discs, with a viscous force."""
     interface = scene.interface
     is_disc = interface.is_flat and interface.has_discs

@@ -21,7 +21,7 @@ from ..framework.places import read
 from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
 from ..slaves.stiction_mass import PLACES
 from ..slaves.tension import TENSIONS, tension_values
-from .film import can_tear, free_liquid
+from .film import can_cavitate, free_liquid
 from .models import native_model
 
 __all__ = ["Model", "check_free", "native_ports", "start_of"]
@@ -108,8 +108,8 @@ def _absent(prepared: PreparedScene[SeparationScene], model: Model) -> set[str]:
         absent |= {"eta"} if model == "stiction-force" else {"eta", "dp_cav", "tau_lim"}
     if not surface_tension:
         absent.add("gamma")
-    if not viscosity or not can_tear(prepared.scene):
-        absent |= {"dp_tear", "dp_hold", "r_cav", "V_void"}
+    if not viscosity or not can_cavitate(prepared.scene):
+        absent |= {"dp_inception", "dp_hold", "r_cav", "V_void"}
     return absent
 
 

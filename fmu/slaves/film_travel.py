@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from ...numerics.quadrature import LOBATTO_5, gauss_legendre
 from ...numerics.roots import first_true
-from ...separation.cavity.events import is_torn_by
+from ...separation.cavity.events import is_inception
 from ...separation.cavity.law import CavityLaw
 from ...separation.cavity.path import along_path
 from ...separation.cavity.state import FULL, Cavity, Phase
@@ -45,7 +45,7 @@ class Travel(NamedTuple):
     """Viscous and other impulse [N.s], and the fraction of the step after which the film is broken.
 
     `broken` is 1 if it is not; `last` is the static force at the end [N], and `cavity` that there;
-    `changed` is the fraction of the step after which the film tore last, or was whole again.
+    `changed` is the fraction of the step after which the film cavitated last, or was full again.
     """
 
     viscous: float
@@ -97,14 +97,14 @@ def _with_memory(
 ) -> tuple[float, Cavity, float]:
     """Viscous impulse of a film that remembers its cavity [N.s], the cavity, and its last change.
 
-    That is the time [s] since the begin at which the film tore, or was full again.
+    That is the time [s] since the begin at which the film cavitated, or was full again.
     """
     speed, total, gap, changed = (end - begin) / length, 0.0, begin, 0.0
 
     def place(time: float) -> tuple[float, float]:
         return begin + speed * time, speed
 
-    is_whole = cavity.phase is Phase.FULL and not is_torn_by(law, cavity, begin, speed)
+    is_whole = cavity.phase is Phase.FULL and not is_inception(law, cavity, begin, speed)
     path = along_path(law, cavity, place, 0.0, length, _VOID, most_steps=_MOST_STEPS)
     for point in path:
         after, cavity = place(point.time)[0], point.cavity

@@ -17,7 +17,7 @@ from typing import Any, ClassVar, NamedTuple
 from attrs import evolve
 
 from ...accuracy import Accuracy
-from ...separation.cavity.events import born, is_torn_by
+from ...separation.cavity.events import inception, is_inception
 from ...separation.cavity.law import CavityLaw
 from ...separation.cavity.stages import Spot, force_at
 from ...separation.cavity.state import FULL, Cavity, Phase, restored_cavity
@@ -262,8 +262,8 @@ class StictionForce(PortSlave):
         cavity = self.memory.cavity
         if not isinstance(law, CavityLaw):  # others are refused when an FMU is built
             return found, 0.0
-        if is_torn_by(law, cavity, gap, speed):
-            cavity, before = born(law, gap, speed), gap
+        if is_inception(law, cavity, gap, speed):
+            cavity, before = inception(law, gap, speed), gap
         if cavity.phase is Phase.FULL:
             return found, 0.0
         rim, _ = law.rim(before, cavity.void)
@@ -286,9 +286,9 @@ class StictionForce(PortSlave):
             self.event(f"film broke at t = {values['t_break']:.9g} s")
         elif (now := self.memory.cavity.phase) is not (was := before.cavity.phase):
             if was is Phase.FULL:
-                self.event(f"film torn at t = {time + done.changed * step:.9g} s")
+                self.event(f"film cavitated at t = {time + done.changed * step:.9g} s")
             elif now is Phase.FULL:
-                self.event(f"film whole again at t = {time + done.changed * step:.9g} s")
+                self.event(f"film reformed at t = {time + done.changed * step:.9g} s")
 
     def _go(self, step: float) -> tuple[Film | None, Travel]:
         """Film on the way of the step, and what it gives there; one that re-wets, from h0 on."""

@@ -190,10 +190,14 @@ _PORTS = (
     ),
     size_port("dp_cav", "Pa", "tension at which the pressure is cut off; 0: no limit", 0.0, "bar"),
     size_port(
-        "dp_tear", "Pa", "tensile strength of the whole liquid; 0: it does not tear", 0.0, "bar"
+        "dp_inception",
+        "Pa",
+        "tensile strength of the liquid; 0: it does not cavitate",
+        0.0,
+        "bar",
     ),
     size_port(
-        "dp_hold", "Pa", "ambient pressure less that in the cavity; 0: as dp_tear", 0.0, "bar"
+        "dp_hold", "Pa", "ambient pressure less that in the cavity; 0: as dp_inception", 0.0, "bar"
     ),
     size_port("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
     tolerance(1e-8),
@@ -384,10 +388,10 @@ class StictionMass(PortSlave):
         if state.n_breaks > before.n_breaks:
             self.event(f"film broke at t = {values['t_break']:.9g} s")
         begin = self.start_time
-        if state.n_tears > before.n_tears:
-            self.event(f"film torn at t = {begin + state.tear_time:.9g} s")
-        if state.n_heals > before.n_heals:
-            self.event(f"film whole again at t = {begin + state.heal_time:.9g} s")
+        if state.n_inceptions > before.n_inceptions:
+            self.event(f"film cavitated at t = {begin + state.inception_time:.9g} s")
+        if state.n_reformations > before.n_reformations:
+            self.event(f"film reformed at t = {begin + state.reformation_time:.9g} s")
 
     def _show(self, pull: float) -> None:
         values, state = self.values, self.state

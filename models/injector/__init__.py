@@ -9,5 +9,5 @@ assumptions  Plausible ranges of what is assumed about the fuel injector, with r
 monolithic  Monolithic model of spool, film and coil, by another method than
             `contactkit.separation.motion`.
 report      Running the fuel injector from the command line.
-torn_pieces  Cavity of the film in a monolithic simulation: its equation, its events, its memory.
+cavity_pieces  Cavity of the film in a monolithic simulation: its equation, its events, its memory.
 """

@@ -20,7 +20,7 @@ from .scene import InjectorScene
 __all__ = ["NAMES", "RANGES", "RANGES_SUSTAINED", "sustaining"]
 
 _GAPS = "loading.initial_gap, loading.rest_gap, loading.final_gap, valve.stop.gap"
-_TORN = "effects.tension-limit.strength, effects.tension-limit.cavity_pressure"
+_TENSIONS = "effects.tension-limit.strength, effects.tension-limit.cavity_pressure"
 _FACES = "interface.lower.surface.radius, interface.upper.surface.radius"
 
 RANGES: Mapping[str, Range] = MappingProxyType(
@@ -66,10 +66,10 @@ RANGES: Mapping[str, Range] = MappingProxyType(
 
 RANGES_SUSTAINED: Mapping[str, Range] = MappingProxyType(
     {
-        _TORN: Range(
+        _TENSIONS: Range(
             ("5 bar", "-3.98675 bar"),
             ("13 bar", "-11.98675 bar"),
-            "the same tension before and after it has torn",
+            "the same tension before and after it has cavitated",
         )
     }
     | {path: one for path, one in RANGES.items() if "tension-limit" not in path}
@@ -81,7 +81,7 @@ NAMES: Mapping[str, str] = MappingProxyType(
         "effects.tension-limit.cavity_pressure": "pressure in the cavity",
         "effects.tension-limit.strength": "tensile strength of the oil",
         "effects.tension-limit.ambient_pressure": "pressure around the face",
-        _TORN: "tension it sustains",
+        _TENSIONS: "tension it sustains",
         "temperature": "temperature of the oil",
         _GAPS: "gap when closed",
         _FACES: "radius of the face",
@@ -104,7 +104,7 @@ NAMES: Mapping[str, str] = MappingProxyType(
 
 
 def sustaining(scene: InjectorScene) -> InjectorScene:
-    """Return the injector with an oil that goes on to sustain its strength once it has torn."""
+    """Return the injector with an oil that sustains its strength in the cavity, too."""
 
     def held(effect: SeparationEffect) -> SeparationEffect:
         if not isinstance(effect, TensionLimit):

@@ -39,7 +39,7 @@ def delay(
     scene: InjectorScene,
     temperature: float,
     *,
-    tears: bool = True,
+    cavitates: bool = True,
     strength: float | None = None,
     cavity_pressure: float | None = None,
     rtol: float = 1e-6,
@@ -49,7 +49,7 @@ def delay(
     For an oil as in `InjectorScene.separation`.
     """
     film = scene.separation(
-        temperature, tears=tears, strength=strength, cavity_pressure=cavity_pressure
+        temperature, cavitates=cavitates, strength=strength, cavity_pressure=cavity_pressure
     )
     return _release(scene, plan(film), rtol)
 

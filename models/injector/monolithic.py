@@ -3,10 +3,10 @@ r"""Monolithic model of spool, film and coil, by another method than `contactkit
 .. math:: (\ln h)' = v/h, \qquad m v' = F_{pull} - k_s (h - h_0) - F_{film}(h, v, W), \qquad
           \lambda' = u(t) - R\,i(\lambda, h), \qquad W' = -2\pi C(h, v, W)
 
-with the void W of a torn film, and the viscous impulse and the dissipated work as quadratures.
+with the void W of a cavitated film, and the viscous impulse and the dissipated work as quadratures.
 scipy integrates from one event to the next, by Radau (implicit, order 5) where a film acts and
 DOP853 (explicit, order 8) where none does. Events are voltages that switch, the end cap met and
-left, kinks of the film laws, a film that tears, turns of the edge of its cavity, a film that is
+left, kinks of the film laws, a film that cavitates, turns of the edge of its cavity, a film that is
 full again, rupture, re-wetting, release, the end stop met and left, the end of the current. The
 laws of film and valve are those of the package; unknowns, time stepping and search for events are
 not, so that an agreement with `contactkit.separation.motion`, or with its FMU coupled to that of
@@ -34,13 +34,13 @@ from scipy.optimize import minimize_scalar
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...errors import ConvergenceError, DescriptionError, PlanError, nearest
 from ...frozen import FrozenDict
-from ...separation.cavity.events import born, is_torn_by
+from ...separation.cavity.events import inception, is_inception
 from ...separation.cavity.law import CavityLaw
 from ...separation.cavity.state import FULL, Cavity, Phase
 from ...separation.motion.state import MotionState, Outputs, outputs
 from ...separation.plan import Film, Plan
 from ..ode_events import crossing, slopes_of, watch
-from . import torn_pieces
+from . import cavity_pieces
 from . import valve as law
 from .valve import Valve
 
@@ -231,8 +231,8 @@ def _rows(
             pull = drive(time)
         film = _outputs(plan, mode, (time, gap, speed, void), pull)
         forces = (pull, film.film, film.static, film.viscous, float(film.status))
-        torn = (film.void, film.cavity_radius)
-        found.append((time, gap, speed, flux, *electric, *forces, impulse, work, *torn))
+        cavity = (film.void, film.cavity_radius)
+        found.append((time, gap, speed, flux, *electric, *forces, impulse, work, *cavity))
     return found
 
 
@@ -392,8 +392,8 @@ class _Run:
             self._longest = 2.0 * math.sqrt(mass / self.valve.stop.stiffness)
         speed = 0.0 if self.mode.in_contact else loading.initial_speed
         self.state = np.array([loading.initial_gap, speed, 0.0, 0.0, 0.0, 0.0])
-        cavity = torn_pieces.round_cavity(plan.film.cavity)
-        scale = torn_pieces.void_scale(cavity, loading.initial_gap)
+        cavity = cavity_pieces.round_cavity(plan.film.cavity)
+        scale = cavity_pieces.void_scale(cavity, loading.initial_gap)
         self.units = np.array([loading.initial_gap, 1.0, FLUX, 1.0, 1.0, scale])
         self.pieces: list[Piece] = []
         self.events: list[Event] = []
@@ -429,9 +429,9 @@ class _Run:
         return None if self.mode.broken else self.plan.film_with(self.mode.volume_fraction)
 
     @property
-    def tearing(self) -> CavityLaw | None:
-        """Law of the cavity of the film; None where it has none, or nothing is left to tear."""
-        return torn_pieces.round_cavity(self.film.cavity) if self.film is not None else None
+    def cavitation(self) -> CavityLaw | None:
+        """Law of the cavity of the film; None where it has none, or nothing is left to cavitate."""
+        return cavity_pieces.round_cavity(self.film.cavity) if self.film is not None else None
 
     def _pull(self, time: float, flux: float, gap: float, speed: float) -> float:
         if isinstance(self.drive, Valve):
@@ -451,7 +451,7 @@ class _Run:
         film, mass, applied, pull = self.film, self.mass, self.applied, self._pull
         coil = self.valve.coil if self.valve is not None and not self.mode.blocked else None
         stiffness, origin = self.loading.stiffness, self.loading.initial_gap
-        in_contact, cavity, tearing = self.mode.in_contact, self.mode.cavity, self.tearing
+        in_contact, cavity, cavitation = self.mode.in_contact, self.mode.cavity, self.cavitation
         scale = float(self.units[5])
 
         def rates(time: float, unknowns: _Floats) -> list[float]:
@@ -464,10 +464,12 @@ class _Run:
             if film is None:
                 return [speed / origin, net / mass, rise, 0.0, 0.0, 0.0]
             growth = 0.0
-            if tearing is None or cavity is FULL:
+            if cavitation is None or cavity is FULL:
                 viscous = film.viscous_force(gap, speed)[0]
             else:
-                viscous, growth = torn_pieces.torn_film(tearing, cavity, gap, speed, scale * void)
+                viscous, growth = cavity_pieces.cavitated_film(
+                    cavitation, cavity, gap, speed, scale * void
+                )
                 viscous += film.unbounded(gap, speed).viscous
             net -= film.static_force(gap) + viscous
             return [speed / gap, net / mass, rise, viscous, viscous * speed, growth / scale]
@@ -478,7 +480,7 @@ class _Run:
 
     def _piece(self, stop: float) -> None:
         """Integrate to the first event, or to `stop`, and apply the event."""
-        self._tear_at_once()
+        self._cavitate_at_once()
         film, rates, watched = self.film, self._rates(), self._watched(self._rates())
         # A void that is a little smaller is one that the film remembers, a larger one is not.
         voids = () if self.mode.cavity is FULL else (0.0, 0.0, -1e-3)
@@ -546,61 +548,63 @@ class _Run:
 
     def _turns_of_cavity(self, rates: _Rates) -> list[tuple[_Watch, Callable[[], None]]]:
         """Events of the cavity in its present phase, and what to do then."""
-        tears, cavity = self.tearing, self.mode.cavity
-        if tears is None:
+        film_law, cavity = self.cavitation, self.mode.cavity
+        if film_law is None:
             return []
 
         def place(unknowns: _Floats) -> tuple[float, float, float]:
             now = in_si(lambda _: unknowns, self.units, True, 0.0)
             return float(now[0]), float(now[1]), float(now[5])
 
-        def torn(time: float, unknowns: _Floats) -> float:
-            return tears.tension(*place(unknowns)) / tears.strength - 1.0
+        def begins(time: float, unknowns: _Floats) -> float:
+            return film_law.tension(*place(unknowns)) / film_law.strength - 1.0
 
         def recedes(time: float, unknowns: _Floats) -> float:
             acceleration = rates(time, unknowns)[1]
-            return torn_pieces.still_recedes(tears, *place(unknowns), acceleration)
+            return cavity_pieces.still_recedes(film_law, *place(unknowns), acceleration)
 
         def returns(time: float, unknowns: _Floats) -> float:
-            return torn_pieces.liquid_returns(tears, cavity, *place(unknowns))
+            return cavity_pieces.liquid_returns(film_law, cavity, *place(unknowns))
 
         def left(time: float, unknowns: _Floats) -> float:
-            return place(unknowns)[2] / cavity.largest - torn_pieces.HEALED
+            return place(unknowns)[2] / cavity.largest - cavity_pieces.REFORMED
 
         if cavity.phase is Phase.FULL:
-            return [(watch(torn, 1), self._tear)] if math.isfinite(tears.strength) else []
+            return [(watch(begins, 1), self._cavitate)] if math.isfinite(film_law.strength) else []
         if cavity.phase is Phase.RECEDING:
             return [(watch(recedes, -1), self._turn_edge)]
         return [(watch(left, -1), self._fill), (watch(returns, -1), self._grow_again)]
 
     def _remembered(self, times: _Floats, at: Callable[[Any], _Floats]) -> Cavity:
-        """Cavity at the end of a piece, with what was torn in it."""
-        tears, cavity = self.tearing, self.mode.cavity
-        if tears is None or cavity.phase is not Phase.RECEDING:
+        """Cavity at the end of a piece, with the ruptures in it."""
+        film_law, cavity = self.cavitation, self.mode.cavity
+        if film_law is None or cavity.phase is not Phase.RECEDING:
             return cavity
-        return torn_pieces.remembered(tears, cavity, times, lambda now: at(now)[[0, 1, 5]])
+        return cavity_pieces.remembered(film_law, cavity, times, lambda now: at(now)[[0, 1, 5]])
 
-    def _tear_at_once(self) -> None:
-        """Let a film tear that moves too fast for its strength where a piece begins."""
-        tears, (gap, speed) = self.tearing, self.state[:2].tolist()
-        if tears is not None and is_torn_by(tears, self.mode.cavity, gap, speed):
-            self._tear()
+    def _cavitate_at_once(self) -> None:
+        """Let a film cavitate that moves too fast for its strength where a piece begins."""
+        film_law, (gap, speed) = self.cavitation, self.state[:2].tolist()
+        if film_law is not None and is_inception(film_law, self.mode.cavity, gap, speed):
+            self._cavitate()
 
-    def _tear(self) -> None:
-        tears, (gap, speed) = self.tearing, self.state[:2].tolist()
-        if tears is not None:
-            self.mode = self.mode._replace(cavity=born(tears, gap, speed))
-            self._note("film tears")
+    def _cavitate(self) -> None:
+        film_law, (gap, speed) = self.cavitation, self.state[:2].tolist()
+        if film_law is not None:
+            self.mode = self.mode._replace(cavity=inception(film_law, gap, speed))
+            self._note("film cavitates")
 
     def _turn_edge(self) -> None:
-        cavity = torn_pieces.turned(self.mode.cavity, float(self.state[0]))
+        cavity = cavity_pieces.turned(self.mode.cavity, float(self.state[0]))
         self.state[5] = cavity.void
         self.mode = self.mode._replace(cavity=cavity)
         self._note("liquid returns")
 
     def _grow_again(self) -> None:
         gap, void = self.state[[0, 5]].tolist()
-        self.mode = self.mode._replace(cavity=torn_pieces.grows_again(self.mode.cavity, gap, void))
+        self.mode = self.mode._replace(
+            cavity=cavity_pieces.grows_again(self.mode.cavity, gap, void)
+        )
         self._note("cavity grows again")
 
     def _fill(self) -> None:

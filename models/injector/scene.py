@@ -53,7 +53,7 @@ class Study:
         Tensile strengths of the oil [Pa], drops below ambient pressure, over which a figure shows
         the delay.
     cavity_pressures : tuple of float
-        Pressures in the cavity once the oil has torn [Pa], absolute, that the figures compare,
+        Pressures in the cavity once the oil has cavitated [Pa], absolute, that the figures compare,
         beside an oil that goes on to sustain its strength. Below zero: a tension.
     communication_step : float
         Communication step of the co-simulation [s].
@@ -87,14 +87,14 @@ class InjectorScene(Device):
 
     @property
     def tension_limit(self) -> TensionLimit | None:
-        """Tension limit of the file; None if its oil never tears."""
+        """Tension limit of the file; None if its oil never cavitates."""
         return next((e for e in self.effects if isinstance(e, TensionLimit)), None)
 
     def separation(
         self,
         temperature: float,
         *,
-        tears: bool = True,
+        cavitates: bool = True,
         strength: float | None = None,
         cavity_pressure: float | None = None,
     ) -> SeparationScene:
@@ -104,16 +104,16 @@ class InjectorScene(Device):
         ----------
         temperature : float
             Temperature of the oil [K].
-        tears : bool
-            Whether the oil tears as the file says; if not, it never does.
+        cavitates : bool
+            Whether the oil cavitates as the file says; if not, it never does.
         strength : float, optional
             Another tensile strength [Pa] than that of the file.
         cavity_pressure : float, optional
             Another pressure in the cavity [Pa], absolute. Never below that at which the whole oil
-            tears, so that -inf is an oil that goes on to sustain its strength.
+            cavitates, so that -inf is an oil that goes on to sustain its strength.
         """
 
-        def torn(limit: TensionLimit) -> TensionLimit:
+        def evolved(limit: TensionLimit) -> TensionLimit:
             bears = limit.tension if strength is None else strength
             if limit.cavity != "mass-conserving":
                 return evolve(limit, strength=bears)
@@ -122,9 +122,9 @@ class InjectorScene(Device):
             return evolve(limit, strength=bears, cavity_pressure=held)
 
         effects = tuple(
-            torn(e) if isinstance(e, TensionLimit) else e
+            evolved(e) if isinstance(e, TensionLimit) else e
             for e in self.effects
-            if tears or not isinstance(e, TensionLimit)
+            if cavitates or not isinstance(e, TensionLimit)
         )
         return SeparationScene(
             name=self.name,

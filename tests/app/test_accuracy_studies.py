@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 
 import contactkit as ck
+from contactkit._lazy import named
 from contactkit.benchmarks import contact_studies, table
+from contactkit.benchmarks.hard import layers
 from contactkit.cli import main
 from contactkit.work_precision import Point
 
@@ -38,12 +41,34 @@ def test_a_study_has_its_table_advice_and_files(measured, tmp_path, capsys):
 def test_every_study_can_be_measured_and_no_scene_has_its_name():
     from contactkit.models.library import bundled_scenes
 
-    assert not set(table.STUDIES) & set(bundled_scenes())
+    names = [*table.STUDIES, *table.HARD_CASES, *bundled_scenes()]
+    assert len(set(names)) == len(names)
     for study in table.STUDIES.values():
-        module, _, function = study.measured_by.partition(":")
-        assert (module, callable(getattr(contact_studies, function))) == ("contact_studies", True)
+        assert callable(named(f"contactkit.{study.measured_by}"))
+    for case in table.HARD_CASES.values():
+        assert callable(named(f"contactkit.benchmarks.hard.{case.measured_by}"))
     with pytest.raises(ck.DescriptionError, match="did you mean 'slip'"):
         table.study_of("slips")
+
+
+def test_a_hard_case_is_run_by_its_name(capsys):
+    assert main(["cost", "small-opening"]) == 0
+    text = capsys.readouterr().out
+    case = table.study_of("small-opening")
+    assert all(part in text for part in (case.title, case.naive, case.ours, case.judge))
+    assert main(["cost", "small-opening", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["contactkit / error"]["value"] <= case.holds
+    assert found["naive / error"]["value"] >= case.fails
+
+
+def test_the_compliance_of_the_hard_disk_is_that_of_the_reference_table():
+    """A copy of some columns, which the package needs without the tests."""
+    here = Path(__file__).parents[1] / "data" / "layered.json"
+    disk = json.loads(here.read_text("utf-8"))["stacks"]["disk_table2.1"]
+    kept = json.loads((Path(layers.__file__).with_name("disk_compliance.json")).read_text("utf-8"))
+    assert kept.pop("rows") == [[row[0], row[3]] for row in disk["rows"]]
+    assert kept == {key: disk[key] for key in kept}
 
 
 def test_errors_fall_with_the_grid():

@@ -87,7 +87,7 @@ def test_a_disk_that_is_full_for_the_record_too_reports_the_first_file(
 ):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("contactkit.app.output.write_whole", no_space)
-        patch.setattr("contactkit.studies.table.save_npz", no_space)
+        patch.setattr("contactkit.files.curves.save_npz", no_space)
         assert main(["study", str(scene), "--out", str(tmp_path / "out")]) == 2
     assert "No space left on device: a file" in capsys.readouterr().err
 

@@ -58,7 +58,10 @@ def fault(number, changed):
 @pytest.mark.parametrize(
     "number",
     # The exact bridges of these are sought long where there is none.
-    [pytest.param(n, marks=[pytest.mark.slow] * (n in ("3.7", "3.12"))) for n in ck.PUBLISHED],
+    [
+        pytest.param(n, marks=[pytest.mark.exhaustive] * (n in ("3.7", "3.12")))
+        for n in ck.PUBLISHED
+    ],
 )
 def test_extremes_have_a_finite_answer_or_a_reason(number):
     faults = {str(changed): fault(number, changed) for changed in changes(number)}

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import math
 import shutil
-from pathlib import Path
 
 import pytest
 
 from contactkit.app.scenes import open_scene
+from contactkit.benchmarks.releases import release_cases
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.master.couple import Fmu, Mass, couple
@@ -23,9 +22,7 @@ from contactkit.models.injector.report.cosimulation import build_fmus
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 
 CYCLE = 11e-3  # [s]: the delay before the first energising, and one period
-RELEASE = json.loads(
-    (Path(__file__).parents[1] / "data" / "release.json").read_text(encoding="utf-8")
-)
+RELEASE = release_cases()
 PHASES = {  # start values and pull [N] of a mass that rests, one that a film holds, one that flies
     "resting": ({"h_min": 5e-6}, -15.0),
     "film": ({"V": 1.58e-10}, 40.0),

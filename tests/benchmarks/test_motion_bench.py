@@ -29,22 +29,6 @@ def pair(device, tmp_path_factory):
     return build_fmus(device.scene, tmp_path_factory.mktemp("pair"))
 
 
-@pytest.mark.parametrize(
-    ("name", "most_steps", "most_evaluations"),
-    [("A", 150, 4000), ("B", 400, 12_000), ("D", 400, 14_000), ("E", 400, 12_000)],
-)
-def test_release_case(benchmark, release_scene, name, most_steps, most_evaluations):
-    """A whole separation at the standard accuracy, error 1e-9 in the release time."""
-    made = ck.plan(release_scene(name))
-    result = benchmark(ck.simulate, made)
-    benchmark.extra_info |= {
-        "steps": result.work.n_steps,
-        "evaluations": result.work.n_evaluations,
-    }
-    assert result.work.n_steps < most_steps
-    assert result.work.n_evaluations < most_evaluations
-
-
 def test_advance_by_one_short_step(benchmark, release_scene):
     """The Python inside one doStep: one internal step of the film with its tension limit."""
     made = ck.plan(release_scene("E", rise_time=0.0))

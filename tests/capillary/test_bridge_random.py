@@ -82,8 +82,7 @@ def integrated(gap, given, state):
     )
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", [11, 12])
+@pytest.mark.parametrize("seed", quick([11, 12], long=[0]))
 def test_any_bridge_is_a_solution_and_ends_at_its_limit(seed):
     states, gaps, givens = [], [], []
     for one, two, below, above, volume in cases(seed, 20):

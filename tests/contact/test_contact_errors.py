@@ -678,7 +678,9 @@ def spikes(seed):
     return scene(surface=surface, window=window, loading=ck.Pressing(pressure=3e3))
 
 
-@pytest.mark.parametrize("method", quick(["active-set", "conjugate-gradient", "quasi-newton"], 0))
+@pytest.mark.parametrize(
+    "method", quick(["active-set", "conjugate-gradient", "quasi-newton"], 0, long=[1])
+)
 def test_a_tolerance_below_round_off_is_distinguished_from_a_lack_of_steps(method):
     """Which of the surfaces still reaches the tolerance hangs on the last bits; not all do."""
     refused = []

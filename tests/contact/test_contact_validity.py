@@ -9,7 +9,7 @@ import pytest
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.contact.effects.base import Contact
+from contactkit.contact.effects.base import SolvedContact
 from contactkit.contact.validity import check_contact
 
 STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3, hardness=7e9)
@@ -209,7 +209,9 @@ def test_the_edge_of_a_surface_that_repeats_is_like_any_line(seed, axis):
     for shift in (0, 7, 31):
         rolled = np.roll(heights, shift, axis)
         grid = ck.plan(GOOD, ck.Accuracy(grid=64)).grid
-        contact = Contact(GOOD, grid, np.ones((64, 64)), np.zeros((64, 64)), np.zeros((64, 64)))
+        contact = SolvedContact(
+            GOOD, grid, np.ones((64, 64)), np.zeros((64, 64)), np.zeros((64, 64))
+        )
         found = {n.name: n for n in check_contact(contact, rolled, {})}
         assert found["jump at the edge of the periodic window"].value < 1.5
 

@@ -7,17 +7,19 @@ import typing
 from pathlib import Path
 
 import pytest
-from demands import PAGES, accuracy_studies
-from demands.accuracy import ANALYSES
-from demands.accuracy_studies import SCENES, STUDIES
-from demands.cost import counts, run
+from demands import PAGES
+from demands.accuracy import ANALYSES, points_of
 from demands.effect_scenes import CONTACTS, ENTRIES
 from demands.effects import lists
-from demands.hard_case import Found
-from demands.hard_cases import CASES
 from demands.page import SHOWN, load
+from demands.presets import SCENES
 
 import contactkit as ck
+from contactkit.benchmarks import separation_studies
+from contactkit.benchmarks.hard.case import Found
+from contactkit.benchmarks.table import HARD_CASES as CASES
+from contactkit.benchmarks.table import STUDIES
+from contactkit.benchmarks.timing import counts, run
 from contactkit.models.library import bundled_scene, bundled_scenes
 
 ROOT = Path(__file__).parents[2]
@@ -38,7 +40,7 @@ def test_every_hard_case_has_its_numbers():
     assert set(load("hard-cases")["cases"]) == set(CASES)
     assert len([case for case in CASES.values() if case.half == "contact"]) >= 6
     assert len([case for case in CASES.values() if case.half == "separation"]) >= 6
-    assert [case.key for case in CASES.values() if not (ROOT / case.tested).exists()] == []
+    assert [case.name for case in CASES.values() if not (ROOT / case.tested).exists()] == []
 
 
 @pytest.mark.parametrize(
@@ -118,13 +120,13 @@ def test_release_times_of_the_page_are_right():
     "name",
     [
         "releases",
-        "bridges",
+        pytest.param("bridge-force", marks=pytest.mark.slow),
         *(pytest.param(name, marks=pytest.mark.slow) for name in ("slip", "history", "lines")),
     ],
 )
 def test_errors_and_counts_of_a_study_still_hold(name, monkeypatch):
-    monkeypatch.setattr(accuracy_studies, "cpu_seconds", lambda *given, **more: 0.0)
-    for found, shown in zip(STUDIES[name].points(), SHOWN_STUDIES[name], strict=True):
+    monkeypatch.setattr(separation_studies, "cpu_seconds", lambda *given, **more: 0.0)
+    for found, shown in zip(points_of(name), SHOWN_STUDIES[name], strict=True):
         assert (found["method"], found["setting"]) == (shown["method"], shown["setting"])
         assert found["error"] <= 3.0 * shown["error"] + 1e-11
         for unit, count in shown["counts"].items():

@@ -42,6 +42,9 @@ NUMBERS = {
 }
 
 
+LONG = ("area_and_theories", "coated_sphere")  # half a minute
+
+
 def load(name):
     spec = importlib.util.spec_from_file_location(f"example_{name}", EXAMPLES / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
@@ -53,9 +56,14 @@ def test_each_example_has_its_number():
     assert {path.stem for path in EXAMPLES.glob("*.py")} == set(NUMBERS)
 
 
-@pytest.mark.slow
-@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")  # the examples tell which
-@pytest.mark.parametrize("name", NUMBERS)
+@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")  # the examples say which
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.exhaustive if name in LONG else pytest.mark.slow)
+        for name in NUMBERS
+    ],
+)
 def test_example(name, tmp_path):
     if "fmu" in name:
         pytest.importorskip("pythonfmu")

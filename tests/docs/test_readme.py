@@ -24,13 +24,19 @@ def blocks(page, language):
     return [textwrap.dedent(body) for _, body in found]
 
 
+SLOW = ("adhesion", "hosts")
+
+
 def with_blocks(language):
-    """Pages with blocks of a language; those about FMUs and curves of adhesion take long."""
-    slow = {page for page in PAGES if "fmu" in page.name or page.stem in ("adhesion", "hosts")}
+    """Pages with blocks of a language; those about FMUs take long, curves of adhesion a minute."""
+
+    def marks(page):
+        if page == ROOT / "docs" / "adhesion.md":
+            return [pytest.mark.exhaustive]
+        return [pytest.mark.slow] if "fmu" in page.name or page.stem in SLOW else []
+
     return [
-        pytest.param(
-            p, id=p.relative_to(ROOT).as_posix(), marks=[pytest.mark.slow] if p in slow else []
-        )
+        pytest.param(p, id=p.relative_to(ROOT).as_posix(), marks=marks(p))
         for p in PAGES
         if p.parent.name != "tutorials"  # run from their sources, test_tutorials.py
         if blocks(p, language)

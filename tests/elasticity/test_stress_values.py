@@ -80,7 +80,9 @@ def test_trailing_edge_of_a_sliding_sphere():
 
 
 @pytest.mark.parametrize(
-    "case", quick(DATA["spheres"], 0, 2), ids=[case["name"] for case in DATA["spheres"]]
+    "case",
+    quick(DATA["spheres"], 0, 2, long=[1, 3]),
+    ids=[case["name"] for case in DATA["spheres"]],
 )
 def test_stress_under_a_sphere_on_layers(case):
     """Points of an axisymmetric solver, with friction; pressure by its five values."""
@@ -103,7 +105,9 @@ def test_stress_under_a_sphere_on_layers(case):
 
 
 @pytest.mark.parametrize(
-    "case", quick(DATA["spheres"], 0, 2), ids=[case["name"] for case in DATA["spheres"]]
+    "case",
+    quick(DATA["spheres"], 0, 2, long=[1, 3]),
+    ids=[case["name"] for case in DATA["spheres"]],
 )
 def test_largest_stress_under_a_sphere_on_layers(case):
     a, r = case["a"], np.array(case["r/a"])

@@ -1,4 +1,4 @@
-"""Films that tear: exact cases of discs, and start values of FMUs for them."""
+"""Films that cavitate: exact cases of discs, and start values of FMUs for them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def pulled(case):
         "m": given["mass"],
         "V": 0.0 if given["rim"].startswith("flooded") else volume,
         "meniscus_law": MeniscusLaw.NONE,
-        "dp_tear": given.get("tension") or given["tension_to_nucleate"],
+        "dp_inception": given.get("tension") or given["tension_to_nucleate"],
         "dp_hold": given.get("tension_of_cavity") or 0.0,
     }
 
@@ -52,6 +52,6 @@ def film_values(**more):
         "h": gap,
         "eta": given["viscosity"],
         "meniscus_law": MeniscusLaw.NONE,
-        "dp_tear": given["p_out"],
+        "dp_inception": given["p_out"],
         **more,
     }

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import json
 import re
 import sys
 from pathlib import Path
@@ -11,12 +10,13 @@ from pathlib import Path
 from native_scenes import FACE, scene
 
 import contactkit as ck
+from contactkit.benchmarks.releases import release_cases
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.native.build import build_native
 from contactkit.fmu.python import build as building
 
 HERE = Path(__file__).parent
-CASES = json.loads((HERE.parent / "data" / "release.json").read_text())
+CASES = release_cases()
 
 
 def values(name):

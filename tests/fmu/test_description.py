@@ -168,6 +168,12 @@ def test_headings_carry_the_unit(toy_module):
     assert find_port(toy_module.Toy.ports, "tau").heading == "tau [s]"
 
 
+def test_a_former_name_of_a_variable_is_refused_with_the_present_one():
+    stiction = dict(models())["stiction-mass"]
+    with pytest.raises(DescriptionError, match="port must be 'dp_inception', its name now"):
+        find_port(stiction.ports, "dp_tear")
+
+
 # What tools show and scale by ---------------------------------------------------------------
 
 

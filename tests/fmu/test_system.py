@@ -123,7 +123,7 @@ def test_values_are_those_of_the_scene_in_both_places(structure, unpacked):
             seen += 1
     assert seen > 35
     assert float(baked["m"]) == scene.loading.mass
-    assert float(baked["dp_tear"]) == 1e6
+    assert float(baked["dp_inception"]) == 1e6
 
 
 def test_what_ends_libcosim_is_left_out(structure):

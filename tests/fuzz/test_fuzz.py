@@ -45,10 +45,16 @@ def test_a_changed_file_is_read_or_refused(name):
     assert not found, said(found)
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("seed", "times"),
+    [
+        pytest.param(31, 5, marks=pytest.mark.slow),
+        pytest.param(2027, 25, marks=pytest.mark.exhaustive),
+    ],
+)
 @pytest.mark.parametrize("name", readers())
-def test_many_changed_files_are_read_or_refused(name):
-    found = cases(name, reader(name), 2027, 25 * QUICK.get(name, 60))
+def test_many_changed_files_are_read_or_refused(name, seed, times):
+    found = cases(name, reader(name), seed, times * QUICK.get(name, 60))
     assert not found, said(found)
 
 

@@ -65,6 +65,44 @@ def test_friction_of_the_scene_stays_unless_replaced():
     assert own > 3.0 * none
 
 
+def slip(coefficient, *, displacement):
+    step = ck.TangentialStep(displacement=displacement, steps=2)
+    return ck.PartialSlip(coefficient=coefficient, path=(step,))
+
+
+def test_stress_below_partial_slip_goes_from_no_friction_to_sliding(solved):
+    """Sliding everywhere it is that of `FrictionTraction`, before that a part of it."""
+    coefficient = 0.3
+    effects = ck.SubsurfaceStress(depths=(0.0, 5e-6), keep="planes", reading="uniform")
+    slid, held = (
+        ck.solve(ball(slip(coefficient, displacement=far), effects)) for far in (1e-6, 5e-9)
+    )
+    sliding = stress_below(solved, effects, ck.FrictionTraction(coefficient=coefficient))
+    part = slid.of(ck.SubsurfaceStress)
+    np.testing.assert_allclose(part.planes, sliding.planes, atol=1e-4 * solved.max_pressure)
+    tractions, between = held.of(ck.PartialSlip), held.of(ck.SubsurfaceStress)
+    assert 0.2 < tractions.force[-1] / (coefficient * 0.2) < 0.8
+    on_surface = between.planes[4, 0]
+    np.testing.assert_allclose(on_surface, -tractions.traction_x[-1], atol=1e-9 * on_surface.max())
+    again = stress_below(held, effects)
+    np.testing.assert_allclose(again.planes, between.planes, rtol=1e-12, atol=1.0)
+
+
+def test_stress_after_a_solve_has_friction_under_the_pressure_of_contact_only():
+    attraction = ck.Adhesion(law=ck.DugdaleAttraction(work_of_adhesion=5.0, range=3e-8))
+    friction = ck.FrictionTraction(coefficient=0.5)
+    run = ck.solve(ball(attraction, friction, ck.SubsurfaceStress()))
+    inside, after = run.of(ck.SubsurfaceStress).maxima, stress_below(run).maxima
+    for name, one in inside.items():
+        assert after[name].value == pytest.approx(one.value, rel=1e-9)
+
+
+def test_friction_that_acts_back_on_the_pressure_is_not_replaced():
+    run = ck.solve(ball(ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling()))
+    with pytest.raises(ck.PlanError, match="acts back on the pressure"):
+        stress_below(run, friction=ck.FrictionTraction(coefficient=0.1))
+
+
 def test_the_plane_of_a_maximum_has_it(solved):
     friction = ck.FrictionTraction(coefficient=0.5)
     for plane in maximum_planes(solved, list(MEASURES), friction=friction).values():

@@ -38,7 +38,9 @@ def test_a_film_far_below_vacuum_warns():
     found = numbers(state)["tension over the strength of the liquid"]
     assert found.value == pytest.approx(tension / 101_325.0, rel=5e-3)
     assert "OUT OF RANGE; the liquid is at 48" in said
-    assert "bar below ambient, and would have torn at 1.01 bar; give the film a Tension" in said
+    assert (
+        "bar below ambient, and would have cavitated at 1.01 bar; give the film a Tension" in said
+    )
     still, nothing = warned(lambda: reynolds.solve_pressure(FILM, 5e-6, 1e-6))
     assert nothing == []
     assert all(one.is_valid is not False for one in still.validity)

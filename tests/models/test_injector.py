@@ -60,28 +60,28 @@ def test_what_the_cavity_holds_decides_how_long_the_spool_sticks(short, runs):
 
 
 @pytest.mark.slow
-def test_an_oil_that_never_tears_does_not_release_the_spool_within_the_pulse(short):
+def test_an_oil_that_never_cavitates_does_not_release_the_spool_within_the_pulse(short):
     for temperature in short.scene.study.temperatures:
-        assert math.isnan(delay(short.scene, temperature, tears=False))
+        assert math.isnan(delay(short.scene, temperature, cavitates=False))
 
 
 @pytest.mark.slow
 def test_the_fmu_pair_agrees_with_the_monolithic_model(short, runs):
-    """At 5 us the coupling is second order; a film that tears is a kink within a step."""
+    """At 5 us the coupling is second order; a film that cavitates is a kink within a step."""
     for run in runs:
         assert run_error(run, cycles(run, short.scene)) < 2e-4
 
 
 @pytest.mark.slow
-def test_a_torn_film_holds_no_more_than_the_pressure_in_its_cavity(short, runs):
+def test_a_cavitated_film_holds_no_more_than_the_pressure_in_its_cavity(short, runs):
     area = math.pi * 3.175e-3**2
     for run in runs:
         first = cycles(run, short.scene)[0]
-        assert 0.3 < first.torn_fraction < 0.9
+        assert 0.3 < first.cavitated_fraction < 0.9
         assert first.meniscus_impulse == 0.0 < first.viscous_impulse
-        torn = run.coupled["r_cav"] > 0.0
+        cavitated = run.coupled["r_cav"] > 0.0
         drop = 1e6 if run.sustained else 101325.0
-        assert 0.8 * area * drop < run.coupled["F_v"][torn].max() < area * drop
+        assert 0.8 * area * drop < run.coupled["F_v"][cavitated].max() < area * drop
         assert run.coupled["F_peak"][-1] >= 0.5e6 * area * (1.0 - 1e-6)
 
 
@@ -118,7 +118,7 @@ def test_the_report_writes_signals_figures_and_fmus(short, runs, tmp_path):
     assert {"signals_80degC.csv", "signals_80degC.npz", "signals_80degC_sustained.csv"} <= names
     assert all(path.stat().st_size > 1000 for path in files)
     assert "coupling" in made.text
-    assert "an oil of up to 25.7 bar tears" in made.text
+    assert "an oil of up to 25.7 bar cavitates" in made.text
     assert "from cold to warm: never, never" in made.text
     assert made.scalars["release_delay_80degC_sustained"][1] == "s"
     with (tmp_path / "signals_80degC.csv").open() as file:
@@ -134,7 +134,7 @@ def test_the_report_writes_signals_figures_and_fmus(short, runs, tmp_path):
 
 
 @pytest.mark.slow
-def test_the_limit_is_reported_while_the_film_is_torn(runs):
+def test_the_limit_is_reported_while_the_film_is_cavitated(runs):
     for run in runs:
         acts = run.coupled["limit"] == LimitKind.TENSION
         assert acts.any()
@@ -154,7 +154,7 @@ def test_the_scene_becomes_the_parameters_of_the_fmu(device):
     assert film == device.scene.separation(device.scene.temperature)
     assert values == mass_values(film)
     assert values["R"] == pytest.approx(3.175e-3)
-    assert (values["dp_tear"], values["dp_hold"], values["dp_cav"]) == (1e6, 101325.0, 0.0)
+    assert (values["dp_inception"], values["dp_hold"], values["dp_cav"]) == (1e6, 101325.0, 0.0)
     assert values["V"] == values["h_break"] == 0.0
 
 
@@ -169,8 +169,8 @@ def test_an_oil_may_be_another_one(device):
     assert drops(strength=2e6) == (2e6, 101325.0)
     assert drops(cavity_pressure=-4e5) == (1e6, 501325.0)
     assert drops(cavity_pressure=-math.inf) == (1e6, 1e6)
-    assert drops(strength=3e5, cavity_pressure=-9e5) == (3e5, 3e5)  # not below where it tears
-    assert scene.separation(293.15, tears=False).effect(ck.TensionLimit) is None
+    assert drops(strength=3e5, cavity_pressure=-9e5) == (3e5, 3e5)  # not below where it cavitates
+    assert scene.separation(293.15, cavitates=False).effect(ck.TensionLimit) is None
 
 
 def test_the_key_of_earlier_files_names_the_new_ones():

@@ -162,12 +162,12 @@ def test_what_the_cavity_holds_decides_when_the_spool_is_released(
         # The closing spool stops short of the end cap, and has less film to leave then.
         assert second.release_time < first.release_time
         assert second.start_gap > 5.2e-6
-        # Half of its strength over the face tears it; a cavity holds no more than its drop.
-        torn = result["cavity_radius"] > 0.0
+        # Half of its strength over the face cavitates it; a cavity holds no more than its drop.
+        cavitated = result["cavity_radius"] > 0.0
         assert first.peak_force > 0.5e6 * area * (1.0 - 1e-6)
-        assert result["film_force"][torn].max() < (1e6 if sustained else 101325.0) * area
+        assert result["film_force"][cavitated].max() < (1e6 if sustained else 101325.0) * area
         whats = [event.what for event in result.events]
-        assert whats.count("film tears") >= 1
+        assert whats.count("film cavitates") >= 1
         assert "film breaks" not in whats
 
 
@@ -178,7 +178,7 @@ def test_a_warm_film_is_full_again_within_a_cycle_and_a_cold_one_is_not(firing):
         assert firing[-20, sustained]["void_volume"][-1] > 0.0
 
 
-def test_an_oil_that_never_tears_does_not_let_the_valve_fire():
+def test_an_oil_that_never_cavitates_does_not_let_the_valve_fire():
     for temperature in (-20, 20, 80):
         scene, valve = injector(temperature, [ck.TensionLimit])
         (cycle,) = simulate(plan(scene), valve, 5e-3).cycles
@@ -208,10 +208,10 @@ def test_energy_of_the_monolithic_model_is_conserved():
     assert result["dissipated_work"][-1] > 1e6 * result["void_volume"][-1] > 0.0
 
 
-# the torn film -------------------------------------------------------------------------------
+# the cavitated film -------------------------------------------------------------------------------
 
 
-def torn_scene(strength, drop, volume=None, viscosity=0.1):
+def cavitated_scene(strength, drop, volume=None, viscosity=0.1):
     face, ambient = ck.Flat(radius=3.175e-3), 1e5
     oil = ck.Liquid(name="oil", viscosity=viscosity)
     limit = ck.TensionLimit(
@@ -232,13 +232,13 @@ DROP = math.pi * 3.175e-3**2 * 5e-6  # [m3]
 @pytest.mark.parametrize(
     ("name", "scene"),
     [
-        ("pull_flooded_jfo_0.1", torn_scene(1e6, 1e6)),
-        ("pull_free_jfo_two_pressures_0.3", torn_scene(1e6, 1e5, DROP, 0.3)),
-        ("pull_free_jfo_1.0", torn_scene(1e6, 1e6, DROP, 1.0)),
-        ("pull_flooded_jfo_dp1.25e+06", torn_scene(1.25e6, 1.25e6, None, 0.3)),
+        ("pull_flooded_jfo_0.1", cavitated_scene(1e6, 1e6)),
+        ("pull_free_jfo_two_pressures_0.3", cavitated_scene(1e6, 1e5, DROP, 0.3)),
+        ("pull_free_jfo_1.0", cavitated_scene(1e6, 1e6, DROP, 1.0)),
+        ("pull_flooded_jfo_dp1.25e+06", cavitated_scene(1.25e6, 1.25e6, None, 0.3)),
     ],
 )
-def test_a_film_that_tears_is_released_as_by_the_exact_edge(name, scene):
+def test_a_film_that_cavitates_is_released_as_by_the_exact_edge(name, scene):
     cases = json.loads((DATA / "film.json").read_text("utf-8"))
     values = next(case["values"] for case in cases["cases"] if case["id"] == name)
     result = simulate(
@@ -247,26 +247,30 @@ def test_a_film_that_tears_is_released_as_by_the_exact_edge(name, scene):
     assert result["time"][-1] == released(result).time
     assert released(result).time == pytest.approx(values["t_release"], rel=2e-6)
     assert released(result).speed == pytest.approx(values["v_release"], rel=2e-6)
-    assert [event.what for event in result.events] == ["film tears", "liquid returns", "released"]
+    assert [event.what for event in result.events] == [
+        "film cavitates",
+        "liquid returns",
+        "released",
+    ]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("drop", [1e6, 1e5])
 @pytest.mark.parametrize("volume", [None, DROP])
 def test_opening_closing_and_opening_again_agree_with_the_motion_of_contactkit(drop, volume):
-    """Torn, returned, full or torn further: each phase of the memory, by two methods."""
+    """Cavitated, returned, full or cavitated further: each phase of the memory, by two methods."""
 
     def pull(time):
         return 40.0 * math.cos(2.0 * math.pi * time / 0.6e-3)
 
     times = [0.2e-3, 0.3e-3, 0.4e-3, 0.5e-3, 0.6e-3, 0.8e-3, 1e-3, 1.2e-3]
-    made = plan(torn_scene(1e6, drop, volume), ck.Accuracy(time_rtol=1e-9))
+    made = plan(cavitated_scene(1e6, drop, volume), ck.Accuracy(time_rtol=1e-9))
     result, state = simulate(made, pull, times[-1], rtol=1e-9, times=times), start(made)
     for time, gap, void in zip(times, result["gap"], result["void_volume"], strict=True):
         state = advance(made, state, pull, time - state.time)
         assert gap == pytest.approx(state.gap, rel=1e-6)
         assert void == pytest.approx(state.cavity.void, rel=2e-6, abs=1e-3 * 1e-12)
-    assert {"film tears", "liquid returns"} < {event.what for event in result.events}
+    assert {"film cavitates", "liquid returns"} < {event.what for event in result.events}
 
 
 def test_curves_can_be_asked_for_at_any_times():

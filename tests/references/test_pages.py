@@ -9,7 +9,6 @@ from contactkit.app.gallery.scripts import folder, load
 QUICK = (
     "layered_programs",
     "contact_ball",
-    "contact_square",
     "sphere_bridges",
     "hertz_mindlin",
     "sphere_adhesion",
@@ -17,7 +16,7 @@ QUICK = (
     "film_forces",
     "cold_oil",
 )
-SLOW = ("rough_area",)  # ten seconds
+SLOW = ("contact_square", "rough_area")  # ten seconds each
 
 
 @pytest.mark.parametrize(

@@ -42,7 +42,51 @@ def tables():
 
 
 def test_tables_are_up_to_date(tables):
-    assert tables.stale() == [], "run python docs/scripts/tables.py"
+    assert tables.stale() == [], "run make pages PAGES=tables"
+
+
+@pytest.fixture(scope="module")
+def pages():
+    module = script("pages")
+    yield module
+    del sys.modules[module.__name__]
+
+
+def test_every_script_that_writes_is_a_page(pages):
+    """Scripts that are run, but for the driver, and parts of the packages among them."""
+    runs = {path.name for path in SCRIPTS.glob("*.py") if "__main__" in path.read_text("utf-8")}
+    runs |= {path.parent.name for path in SCRIPTS.glob("*/__main__.py")}
+    listed = {name for page in pages.PAGES.values() for name in page.scripts}
+    assert {name.partition("/")[0] for name in listed} == runs - {"pages.py"}
+    assert all((SCRIPTS / name).exists() for name in listed)
+
+
+def test_a_page_that_there_is_not_is_refused_with_the_list(pages, capsys, monkeypatch):
+    monkeypatch.setattr(pages, "write", lambda name: pytest.fail(f"wrote {name}"))
+    with pytest.raises(SystemExit) as refused:
+        pages.main(["films", "fims"])
+    assert refused.value.code == 2
+    said = capsys.readouterr().err
+    assert "no page fims" in said
+    assert all(name in said for name in pages.PAGES)
+
+
+def test_pages_are_written_and_one_that_fails_is_reported(pages, capsys, monkeypatch):
+    wrote = []
+    monkeypatch.setattr(pages, "write", lambda name: wrote.append(name) or name != "films")
+    assert pages.main(["films", "claims"]) == 1
+    assert wrote == ["films", "claims"]
+    assert "failed: films" in capsys.readouterr().err
+    assert pages.main(["claims"]) == 0
+
+
+def test_every_measured_block_has_a_script_that_writes_it():
+    """By its name, which is the key of a table, perhaps behind a prefix."""
+    texts = [path.read_text("utf-8") for path in SCRIPTS.rglob("*.py")]
+    for page in DOCS.rglob("*.md"):
+        for name in re.findall(r"<!-- measured: (.*?) -->", page.read_text("utf-8")):
+            keys = [name, *(name[end:] for end in (m.end() for m in re.finditer("[ -]", name)))]
+            assert any(f'"{key}"' in text for key in keys for text in texts), name
 
 
 def test_every_table_is_shown(tables):

@@ -79,11 +79,22 @@ TERMS = {
     r"\bwithout neighbours\b": "isolated contact",
     r"^told$": "reported, stated",
     r"^(stop|faces) blows?$|^blows?$": "impact",
+    r"(?<![a-z])(tears?|tearing|torn|tore|born|births?|heal(s|ed|ing)?)(?![a-z])|\bwhole again\b": (
+        "inception, rupture (cavitation), reformation"
+    ),
 }
 # Where one of them is the right word: pattern of the path, phrase, reason.
 DELIBERATE: list[tuple[str, str, str]] = [
     ("docs/reference/scene-files.md", '= "clipped"`', "former spelling of a key"),
     ("tests/benchmarks/*", "rounds", "argument of pytest-benchmark"),
+    ("contactkit/files/structure.py", '"tear_time"', "former name of a key"),
+    ("contactkit/files/structure.py", '"heal_time"', "former name of a key"),
+    ("contactkit/files/structure.py", '"n_tears"', "former name of a key"),
+    ("contactkit/files/structure.py", '"n_heals"', "former name of a key"),
+    ("fmu/framework/ports.py", '"dp_tear"', "former name of a variable"),
+    ("docs/reference/*", "former", "former name of a variable"),
+    ("tests/*_errors.py", "n_tears", "former name of a key"),
+    ("tests/fmu/test_description.py", "dp_tear", "former name of a variable"),
 ]
 # First lines that are a riddle: what the thing is must come first.
 RIDDLE = re.compile(r"(What|How|Where|When|Which|Why|That)\b")

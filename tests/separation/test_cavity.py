@@ -1,4 +1,4 @@
-"""Cavity of a disc of film with the memory of what was torn, against references."""
+"""Cavity of a disc of film with the memory of what was cavitated, against references."""
 
 import math
 
@@ -9,14 +9,14 @@ from reynolds_cases import CASES
 import contactkit as ck
 from contactkit.lubrication.disc_cavity import film_ring, inflow, receding_edge
 from contactkit.lubrication.film_limits import disc_tension_reynolds
-from contactkit.lubrication.torn_film import (
+from contactkit.lubrication.rupture_history import (
     cut,
     edge_of,
     grown,
+    liquid_within,
     outermost,
     piece_along,
     piece_at,
-    torn_to,
     void_within,
 )
 from contactkit.separation.cavity.law import CavityLaw
@@ -50,7 +50,7 @@ def pulled(case, rtol=1e-8):
     given = case["inputs"]
     full = math.pi * given["radius"] ** 2 * given["initial_gap"]
     volume = None if given["rim"].startswith("flooded") else full
-    tears = given.get("tension_to_nucleate") or given["tension"]
+    cavitates = given.get("tension_to_nucleate") or given["tension"]
     scene = ck.SeparationScene(
         interface=film(given["viscosity"], volume, given["radius"]),
         loading=ck.ImposedForce(
@@ -59,13 +59,13 @@ def pulled(case, rtol=1e-8):
             force=given["force"],
             mass=given["mass"],
         ),
-        effects=(ck.ViscousForce(), limit(tears, given.get("tension_of_cavity") or tears)),
+        effects=(ck.ViscousForce(), limit(cavitates, given.get("tension_of_cavity") or cavitates)),
     )
     return ck.simulate(ck.plan(scene, ck.Accuracy(time_rtol=rtol)))
 
 
 @pytest.mark.parametrize("name", PULLS)
-def test_a_film_that_tears_is_released_on_time(name):
+def test_a_film_that_cavitates_is_released_on_time(name):
     case = CASES[name]
     values, state = case["values"], (result := pulled(case)).state
     assert state.release_time == pytest.approx(values["t_release"], rel=1e-6)
@@ -75,8 +75,8 @@ def test_a_film_that_tears_is_released_on_time(name):
         assert result["viscous_force"][-1] == pytest.approx(values["F_end"], rel=2e-6)
         widest = result["cavity_radius"].max() / case["inputs"]["radius"]
         assert widest == pytest.approx(values["rc_max_over_R"], rel=2e-6)
-    torn = result["limit"] == ck.LimitKind.TENSION
-    assert result.time[torn][0] == pytest.approx(values["t_on"], rel=1e-6)
+    cavitated = result["limit"] == ck.LimitKind.TENSION
+    assert result.time[cavitated][0] == pytest.approx(values["t_on"], rel=1e-6)
 
 
 def test_a_looser_tolerance_costs_fewer_steps_and_stays_near():
@@ -129,44 +129,48 @@ def test_the_ring_is_the_same_on_both_sides_of_its_series():
 
 def memory(n):
     """Edge that recedes ever more slowly while the gap opens."""
-    torn = (piece_at(0.1, 1.0),)
+    cavitated = (piece_at(0.1, 1.0),)
     nodes = (0.0, (4.0 - 6**0.5) / 10.0, (4.0 + 6**0.5) / 10.0, 1.0)
     for i in range(n):
         t = [(i + x) / n for x in nodes]
         squares = [0.1 + 0.8 * s * (2.0 - s) for s in t]
-        torn = grown(torn, piece_along(torn_to(torn), squares, [1.0 + s for s in t]))
-    return torn
+        cavitated = grown(
+            cavitated, piece_along(liquid_within(cavitated), squares, [1.0 + s for s in t])
+        )
+    return cavitated
 
 
 def test_the_void_says_where_the_edge_is():
-    torn = memory(20)
+    cavitated = memory(20)
     # M of y = 0.1 + 0.8 s (2 - s), h = 1 + s: pi (0.1 + 1.6 int (1 - s)(1 + s) ds)
-    assert torn_to(torn) == pytest.approx(math.pi * (0.1 + 1.6 * (1.0 - 1.0 / 3.0)), rel=1e-13)
+    assert liquid_within(cavitated) == pytest.approx(
+        math.pi * (0.1 + 1.6 * (1.0 - 1.0 / 3.0)), rel=1e-13
+    )
     for s in (0.0, 0.1, 0.5, 0.93, 1.0):
         square = 0.1 + 0.8 * s * (2.0 - s)
         for gap in (2.0, 2.0 + 1e-9, 3.0, 100.0):
             liquid = math.pi * (0.1 + 1.6 * (s - s**3 / 3.0))
-            found = edge_of(torn, gap, math.pi * square * gap - liquid)
+            found = edge_of(cavitated, gap, math.pi * square * gap - liquid)
             assert found.square == pytest.approx(square, rel=1e-7)
-    assert edge_of(torn, 3.0, 0.0).square == 0.0
-    assert edge_of(torn, 3.0, 1e9).square == outermost(torn) == pytest.approx(0.9)
+    assert edge_of(cavitated, 3.0, 0.0).square == 0.0
+    assert edge_of(cavitated, 3.0, 1e9).square == outermost(cavitated) == pytest.approx(0.9)
 
 
 def test_what_is_forgotten_or_joined_loses_no_liquid():
-    torn, many = memory(20), memory(500)
+    cavitated, many = memory(20), memory(500)
     assert len(many) <= 64
-    assert torn_to(many) == pytest.approx(torn_to(torn), rel=1e-13)
-    void = 0.4 * void_within(torn, 3.0)
-    shorter = cut(torn, 3.0, void)
+    assert liquid_within(many) == pytest.approx(liquid_within(cavitated), rel=1e-13)
+    void = 0.4 * void_within(cavitated, 3.0)
+    shorter = cut(cavitated, 3.0, void)
     assert void_within(shorter, 3.0) == pytest.approx(void, rel=1e-12)
     for gap, share in ((2.1, 0.5), (4.0, 0.9)):
-        void = share * void_within(torn, gap)
+        void = share * void_within(cavitated, gap)
         assert edge_of(many, gap, void).square == pytest.approx(
-            edge_of(torn, gap, void).square, rel=1e-6
+            edge_of(cavitated, gap, void).square, rel=1e-6
         )
 
 
-def test_an_oscillating_disc_tears_and_heals():
+def test_an_oscillating_disc_cavitates_and_reforms():
     case = CASES["oscillating_disc_0.005"]
     given, values = case["inputs"], case["values"]
     radius, pace = given["radius"], math.tau * given["frequency"]
@@ -202,10 +206,10 @@ def refilling():
     case = CASES["disc_refill_0.1_0.9_1e+06"]
     given = case["inputs"]
     edge = given["cavity_radius"] ** 2
-    torn = (piece_at(edge, given["gap_at_rupture"]),)
-    void = void_within(torn, given["gap"])
+    cavitated = (piece_at(edge, given["gap_at_rupture"]),)
+    void = void_within(cavitated, given["gap"])
     fraction = edge / given["radius"] ** 2
-    return case, Cavity(Phase.RETURNING, void, fraction, torn, void)
+    return case, Cavity(Phase.RETURNING, void, fraction, cavitated, void)
 
 
 def test_a_cavity_at_rest_refills_in_its_time():
@@ -238,18 +242,18 @@ def moving(rest_gap=0.0, strength=1e6, drop=1e6, **more):
     return ck.plan(scene)
 
 
-def test_a_film_that_is_torn_at_the_start_has_its_cavity_there():
+def test_a_film_that_is_cavitated_at_the_start_has_its_cavity_there():
     plan = moving(initial_speed=0.1)
     begun = start(plan)
     assert begun.cavity.phase is Phase.RECEDING
-    assert begun.n_tears == 1
+    assert begun.n_inceptions == 1
     shown = outputs(plan, begun, 40.0)
     assert 0.9 * math.pi * FACE**2 * 1e6 < shown.viscous < math.pi * FACE**2 * 1e6
     assert shown.cavity_radius > 0.9 * FACE
     assert shown.void == 0.0
 
 
-def test_a_face_that_closes_meets_no_full_film_above_the_torn_gap():
+def test_a_face_that_closes_meets_no_full_film_above_the_gap_of_rupture():
     plan = moving(rest_gap=5e-6, initial_gap=5e-6, final_gap=30e-6)
     open_ = advance(plan, start(plan), Pull(40.0), 2.9e-4)
     assert open_.gap > 24e-6
@@ -288,10 +292,10 @@ def test_liquid_of_a_given_volume_is_all_still_there():
     rim, _ = law.rim(state.gap, state.cavity.void)
     edge = state.cavity.fraction * rim
     full = math.pi * (rim - edge) * state.gap
-    torn = math.pi * edge * state.gap - state.cavity.void
-    assert full + torn == pytest.approx(volume, rel=1e-12)
-    kept = cut(state.cavity.torn, state.gap, state.cavity.void)
-    assert torn_to(kept) == pytest.approx(torn, rel=1e-9)
+    cavitated = math.pi * edge * state.gap - state.cavity.void
+    assert full + cavitated == pytest.approx(volume, rel=1e-12)
+    kept = cut(state.cavity.history, state.gap, state.cavity.void)
+    assert liquid_within(kept) == pytest.approx(cavitated, rel=1e-9)
 
 
 def test_work_is_dissipated_or_stored_in_the_void():
@@ -324,7 +328,7 @@ def test_work_is_dissipated_or_stored_in_the_void():
     assert done == pytest.approx(flow + 1e6 * cavity.void, rel=1e-2)
 
 
-def test_an_imposed_speed_shows_its_cavity_and_only_a_film_that_tears_has_one():
+def test_an_imposed_speed_shows_its_cavity_and_only_a_film_that_cavitates_has_one():
     loading = ck.ImposedSpeed(initial_gap=5e-6, final_gap=25e-6, speed=0.04)
     scene = ck.SeparationScene(
         interface=film(), loading=loading, effects=(ck.ViscousForce(), limit(1e6, 1e6))
@@ -345,7 +349,7 @@ def test_an_imposed_speed_shows_its_cavity_and_only_a_film_that_tears_has_one():
 
 
 def test_a_vibration_pushes_the_faces_apart_on_the_mean():
-    """Torn half of the cycle, full the other half: rectified, and from cycle to cycle the same."""
+    """Cavitated half of the cycle, full the other: rectified, and from cycle to cycle the same."""
     shaken = ck.Vibration(amplitude=2e-6, frequency=1e3)
     loading = ck.ImposedSpeed(initial_gap=10e-6, final_gap=10.005e-6, speed=1e-6, vibration=shaken)
     scene = ck.SeparationScene(

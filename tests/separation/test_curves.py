@@ -14,7 +14,7 @@ from contactkit.separation import refine
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 
 R, FORCE, MASS = 3.175e-3, 40.0, 0.02
-TORN = ck.TensionLimit(strength=2e6, cavity_pressure=0.0)
+CAVITATING = ck.TensionLimit(strength=2e6, cavity_pressure=0.0)
 CUT = ck.TensionLimit(strength=1e6, cavity="truncated")
 MENISCUS = (ck.MeniscusForce(), ck.Rupture())
 
@@ -54,8 +54,8 @@ PULLS = {
     "inertial": film(viscosity=1e-3, initial_gap=50e-6, final_gap=500e-6, mass=0.2),
     "massless": film(mass=None),
     "spring": film(viscosity=0.1, stiffness=1.2e6),
-    "cavity": film(TORN, viscosity=0.1, final_gap=60e-6),
-    "cavity that heals": film(
+    "cavity": film(CAVITATING, viscosity=0.1, final_gap=60e-6),
+    "cavity that reforms": film(
         ck.TensionLimit(strength="vapour"), force=20.0, viscosity=0.1, rise_time=2e-3
     ),
     "cut-off pressure": film(CUT, viscosity=0.1, final_gap=60e-6),
@@ -90,7 +90,7 @@ def departures(found, exact, along="time", n=1000):
     return worst
 
 
-LONG = {"massless", "cavity that heals", "cut-off pressure", "shear", "closes first"}
+LONG = {"massless", "cavity that reforms", "cut-off pressure", "shear", "closes first"}
 
 
 @pytest.mark.parametrize(
@@ -151,11 +151,11 @@ def test_a_jump_is_two_points():
     assert time[index] == result.state.break_time
     assert 0.0 < time[index] - time[index - 1] < 1e-5 * time[index]
     assert force[index] == 0.0 < force[index - 1]
-    torn = run(PULLS["cavity"])
-    index = int(np.argmax(torn["cavity_radius"] > 0.0))
-    assert torn.time[index] == torn.state.tear_time
-    assert torn["cavity_radius"][index - 1 : index + 1].tolist()[0] == 0.0
-    assert 0.0 < torn.time[index] - torn.time[index - 1] < 1e-5 * torn.time[index]
+    cavitated = run(PULLS["cavity"])
+    index = int(np.argmax(cavitated["cavity_radius"] > 0.0))
+    assert cavitated.time[index] == cavitated.state.inception_time
+    assert cavitated["cavity_radius"][index - 1 : index + 1].tolist()[0] == 0.0
+    assert 0.0 < cavitated.time[index] - cavitated.time[index - 1] < 1e-5 * cavitated.time[index]
 
 
 def test_numbers_of_a_run_compute_no_curve(monkeypatch):
@@ -221,7 +221,7 @@ def test_a_figure_draws_the_points():
     [
         film(*MENISCUS, volume=1e-11, speed=1e-3),
         film(CUT, viscosity=0.1, speed=1e-3),
-        film(TORN, viscosity=0.1, speed=0.1, final_gap=60e-6),
+        film(CAVITATING, viscosity=0.1, speed=0.1, final_gap=60e-6),
         film(*MENISCUS, volume=1e-11, time=1e-3),
         attrs.evolve(
             ball(), loading=ck.ImposedSpeed(initial_gap=1e-9, final_gap=20e-6, speed=1e-3)
@@ -281,7 +281,7 @@ def test_lines_over_cycles_are_right(amplitude, frequency, is_cut):
 @pytest.mark.parametrize(
     "scene",
     [
-        vibrated(film(TORN, viscosity=0.1), 2e-6),
+        vibrated(film(CAVITATING, viscosity=0.1), 2e-6),
         pytest.param(
             vibrated(film(ck.TensionLimit(strength="vapour"), viscosity=0.1), 5e-7, phase=1.3),
             marks=pytest.mark.slow,

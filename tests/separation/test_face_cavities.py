@@ -9,6 +9,7 @@ import attrs
 import numpy as np
 import pytest
 from reynolds_cases import CASES, inputs
+from selection import quick
 
 import contactkit as ck
 from contactkit.separation.cavity.state import Phase, restored_cavity
@@ -38,9 +39,9 @@ def one_pressure(tension):
     return ck.TensionLimit(strength=tension, cavity_pressure=AMBIENT - tension)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
-    ("name", "error"), [("pull_flooded_jfo_0.1", 2e-3), ("pull_flooded_jfo_dp1.25e+06", 1e-2)]
+    ("name", "error"),
+    quick([("pull_flooded_jfo_0.1", 2e-3), ("pull_flooded_jfo_dp1.25e+06", 1e-2)], long=[0]),
 )
 def test_a_disc_is_pulled_apart_as_its_edge_says(name, error):
     """Release of the injector by the ODE of the exact edge of a round cavity."""
@@ -58,7 +59,7 @@ def test_two_pressures_release_nearly_as_a_dry_face():
     result = ck.simulate(ck.plan(scene(NOTCHED, limit), ROUGHLY))
     assert result.status == "released"
     assert result.state.release_time == pytest.approx(0.1473e-3, rel=4e-3)
-    assert result.state.n_tears == 1
+    assert result.state.n_inceptions == 1
 
 
 @pytest.fixture(scope="module")
@@ -104,7 +105,7 @@ def motion(face, pulls, step, accuracy=ROUGHLY):
     return np.array(found), state
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_what_has_cavitated_is_remembered_until_liquid_is_back():
     """Pulled, pushed back and pulled again, as the round cavity of the same liquid."""
     pulls = [40.0] * 4 + [-40.0] * 4

@@ -150,7 +150,7 @@ def test_the_strength_of_the_liquid_bounds_its_tension(film_scene):
     assert found[BENDING].value == pytest.approx(2.0 * strength * 1e-3 / (1e11 * 1e-6), rel=1e-9)
     free, _ = judged(film_scene(ck.ViscousForce(), **given))
     assert free[COMPRESSION].value == pytest.approx(3e5 / 1e9, rel=1e-12)
-    # Where the film tears its pressure does not follow the speed; later it does, on a wider gap.
+    # Where the film cavitates its pressure does not follow the speed; on a wider gap it does.
     assert 0.0 < found[SOFT].value < 0.2 * free[SOFT].value
 
 
@@ -158,7 +158,7 @@ def limit_of(strength):
     return ck.TensionLimit(strength=strength)
 
 
-def test_closing_counts_where_the_liquid_does_not_tear(film_scene):
+def test_closing_counts_where_the_liquid_does_not_cavitate(film_scene):
     plan = ck.plan(film_scene(ck.ViscousForce(), liquid={"bulk_modulus": 1e9}))
     prepared, film = plan.prepared, plan.prepared.film
 

@@ -62,7 +62,9 @@ def test_humidity_and_liquid_are_evaluated_once_in_a_plan(model, counted):
     assert made.prepared.liquid_pressure == pytest.approx(-93.6e6, rel=1e-2)
 
 
-@pytest.mark.parametrize("limits", [(), (ck.TensionLimit(strength=1e5),)], ids=["free", "tears"])
+@pytest.mark.parametrize(
+    "limits", [(), (ck.TensionLimit(strength=1e5),)], ids=["free", "cavitates"]
+)
 def test_no_force_along_a_motion_is_evaluated_twice_at_a_state(limits, counted):
     made = ck.plan(oil_film(PULLED, *FORCES, *limits))
     shown = counted(Film, "at")

@@ -21,6 +21,7 @@ from refusals import (
 )
 
 import contactkit as ck
+from contactkit.files.results import read_state
 from contactkit.files.scenes import write_whole
 from contactkit.kinds import SEPARATION_EFFECTS
 from contactkit.units import parse_quantity, parse_unit
@@ -48,7 +49,7 @@ def refuses_plan(*parts, error=ck.PlanError, **given):
 # Numbers of scene objects -----------------------------------------------------------------------
 
 ACCURACY = ck.Accuracy()
-TORN = ck.TensionLimit(strength=1e6, cavity_pressure=0.0)
+CAVITATING = ck.TensionLimit(strength=1e6, cavity_pressure=0.0)
 LIMIT, SHEAR, BREAK = (
     ck.TensionLimit(strength=1e6, cavity="truncated"),
     ck.ShearLimit(strength=1e6),
@@ -97,7 +98,7 @@ FIELDS = [
     (scene(VISCOUS), "temperature", "K", POSITIVE, [0.0, -20.0, None]),
     (LIMIT, "strength", "Pa", POSITIVE, [0.0, -1e5, "vacuum", None]),
     (LIMIT, "ambient_pressure", "Pa", POSITIVE, [0.0, -1e5, None]),
-    (TORN, "cavity_pressure", "Pa", FINITE, []),
+    (CAVITATING, "cavity_pressure", "Pa", FINITE, []),
     (SHEAR, "strength", "Pa", POSITIVE, [0.0, -1e5, None]),
     (BREAK, "gap", "m", POSITIVE, [0.0, -1e-6]),
     (ATTRACTION, "hamaker_constant", "J", POSITIVE, [0.0, -1e-19, None]),
@@ -692,6 +693,11 @@ def test_a_result_that_is_none_is_refused(tmp_path):
     path = tmp_path / "text.npz"
     path.write_text("not a result", encoding="utf-8")
     refuses(lambda: ck.load_result(path), "file must be a result of contactkit", "text.npz")
+
+
+def test_a_state_with_a_former_name_is_refused_with_the_present_one():
+    kept = {"time": 1.0, "n_tears": 1}
+    refuses(lambda: read_state(kept), "state.n_tears must be left out", "it is now n_inceptions")
 
 
 def test_an_unknown_liquid_of_the_library_gets_a_guess():

@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from attrs import evolve
+from selection import quick
 
 import contactkit as ck
 from contactkit.cli import main
@@ -199,8 +200,7 @@ def test_an_interrupted_command_says_how_it_continues(tmp_path, monkeypatch, cap
     assert ck.StudyFile(place).n_done == 4 if kept == "--stream" else True
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("how", quick([signal.SIGINT, signal.SIGTERM, signal.SIGKILL], long=[2]))
 def test_a_streamed_study_over_processes_keeps_its_points(tmp_path, how):
     path, file = tmp_path / "film.toml", tmp_path / "film.sqlite"
     path.write_text(SCENE.replace("TIMES", ", ".join(f"{1e-3 + 1e-7 * i}" for i in range(4000))))

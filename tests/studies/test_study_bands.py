@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 import math
 
 import numpy as np
@@ -171,18 +170,22 @@ def test_files_have_all_columns(tmp_path, seeded):
             head, *rows = csv.reader(file)
         assert head == [*(f"{n} [{made.units[n]}]" for n in made.units), "status", "message"]
         assert len(rows) == len(made.points)
-        path = made.save_npz(tmp_path / name)
-        with np.load(path, allow_pickle=False) as file:
-            header = json.loads(str(file["header"]))
-            assert file["load" if name == "all" else "load_low"].tolist() == (
-                made.column("load" if name == "all" else "load_low").tolist()
-            )
-        assert header["units"] == dict(made.units)
-        assert header["shape"] == list(made.shape)
-    assert header["units"]["load_high"] == "E* A"
+        again = ck.read_curve(made.save(tmp_path / name))
+        one = "load" if name == "all" else "load_low"
+        assert again[one].tolist() == made.column(one).tolist()
+        assert again.units == {"status": "-"} | dict(made.units)
+        assert again.parts["shape"] == made.shape
+        assert again.parts["paths"] == made.paths
+        assert again.scalars() == made.scalars()
+        assert (again.status, again.message, again.cite()) == (
+            made.status,
+            made.message,
+            made.cite(),
+        )
+    assert again.unit("load_high") == "E* A"
 
 
 def test_objects_are_written_as_text(tmp_path):
     made = ck.study(contact(), {"interface.lower.solid": ["ni-p", STEEL]}, ACCURACY)
-    with np.load(made.save_npz(tmp_path / "solids"), allow_pickle=False) as file:
-        assert file["interface.lower.solid"].tolist() == ["Ni-P", "steel"]
+    again = ck.read_curve(made.save(tmp_path / "solids"))
+    assert again["interface.lower.solid"].tolist() == ["Ni-P", "steel"]

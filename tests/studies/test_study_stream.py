@@ -199,13 +199,13 @@ def test_a_column_that_is_not_there_and_values_that_are_wrong_are_refused(tmp_pa
 
 
 def test_a_plan_of_a_study_states_time_memory_and_disk(tmp_path):
-    times = [1e-3 * (1.0 + 1e-4 * i) for i in range(1000)]
+    times = [1e-3 * (1.0 + 1e-4 * i) for i in range(500)]
     plan = ck.plan_study(film(), {GAPS: ["2 um", "4 um"], TIMES: times}, QUICK, trials=3, workers=4)
-    assert (plan.n_points, plan.n_trials) == (2000, 3)
+    assert (plan.n_points, plan.n_trials) == (1000, 3)
     assert 0.0 < plan.least_seconds <= plan.seconds <= plan.most_seconds
-    assert plan.wall_seconds == pytest.approx(2000 * plan.seconds / 4)
+    assert plan.wall_seconds == pytest.approx(1000 * plan.seconds / 4)
     text = str(plan)
-    assert text.startswith("study of 2000 points: loading.initial_gap (2) x loading.time (1000)")
+    assert text.startswith("study of 1000 points: loading.initial_gap (2) x loading.time (500)")
     assert "estimate from 3 points" in text
     found = ck.stream_study(film(), {GAPS: ["2 um", "4 um"], TIMES: times}, tmp_path / "oil", QUICK)
     assert os.path.getsize(found.path) == pytest.approx(plan.disk, rel=0.3)
@@ -352,14 +352,11 @@ def test_a_point_that_kills_its_worker_costs_only_itself(tmp_path):
 
 
 def test_bands_keep_the_definitions_of_their_scales(tmp_path):
-    import json
-
     vary = {"interface.upper.surface.seed": [1, 2], "loading.pressure": [1e7, 2e7]}
     whole = ck.study(contact(), vary, ck.Accuracy(grid=32)).dimensionless()
 
     def written(study):
-        with np.load(study.save_npz(tmp_path / "bands")) as file:
-            return json.loads(str(file["header"]))
+        return ck.read_curve(study.save(tmp_path / "bands")).parts
 
     assert written(whole.bands())["scales"] == written(whole)["scales"] != {}
     assert evolve(whole.bands()).scale_definitions == whole.scale_definitions

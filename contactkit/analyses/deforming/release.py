@@ -44,7 +44,7 @@ class ReleaseCurve(Curve):
     shown: ClassVar[Shown] = {"release": (("release_time",), "")}
     title: ClassVar[str] = "time of release"
 
-    axis: str  # type: ignore[misc]
+    axis: str
     force: Floats = field(repr=False, metadata=si("N"))
     rest: Floats = field(repr=False, metadata=si("s"))
     release_time: Floats = field(repr=False, metadata=si("s"))
@@ -89,8 +89,8 @@ def release_over(
     >>> effects = (ck.ElasticBodies(), ck.ViscousForce())
     >>> scene = ck.SeparationScene(interface=body, loading=loading, effects=effects)
     >>> slow, fast = release_over(scene, forces=[1e-4, 2e-4]).release_time
-    >>> round(slow / fast, 1)
-    2.1
+    >>> bool(slow > 2.0 * fast)
+    True
     """
     check_scene(scene, SeparationScene)
     loading = scene.loading

@@ -10,7 +10,7 @@ from attrs import field, frozen
 from ...validators import part
 from ...validity import ValidityNumber
 from .attraction_laws import AttractionLaw, TensionLaw
-from .base import Array, AttractedContact, Attraction, Contact, Scalar, effects_of
+from .base import Array, AttractedContact, Attraction, Scalar, SolvedContact, effects_of
 from .elasticity import contact_modulus
 
 if TYPE_CHECKING:
@@ -22,8 +22,13 @@ if TYPE_CHECKING:
 
 __all__ = ["Adhesion", "AdhesionPart"]
 
+# A pixel is unstable by itself from 1 on. Pull-off of a sphere is 0.5 % off at 0.6, 9 % at 1.1.
 _MOST_TRAPPING = 0.5
+# Attraction of a rough map that hardly touches, over that of a grid so fine that it stays: up to
+# 0.3 % off below 1, 1 % at 1.2, 2 to 3 % at 2 to 3, and 17 % at 5.6.
 _MOST_STEP = 1.0
+# The same fraction of 2 pi R w is attraction beyond the window, of an exponential law on a ball:
+# its tension and its work fall alike over the gap.
 _MOST_AT_EDGE = 0.05
 _MOST_TENSION = 1e8  # over E*: the net pressure, a difference of tensions, keeps eight digits of E*
 
@@ -150,7 +155,9 @@ class Adhesion(Attraction[AdhesionPart]):
         """See `Attraction.attracted_of`."""
         return AttractedContact(part.tension, part.is_contact, part.self_influence, part.n_contacts)
 
-    def observe_attracted(self, contact: Contact, attracted: AttractedContact) -> AdhesionPart:
+    def observe_attracted(
+        self, contact: SolvedContact, attracted: AttractedContact
+    ) -> AdhesionPart:
         """See `Attraction.observe_attracted`."""
         import numpy as np
 
@@ -175,7 +182,7 @@ class Adhesion(Attraction[AdhesionPart]):
         )
 
     def _shape(
-        self, contact: Contact, near: NDArray[np.bool_]
+        self, contact: SolvedContact, near: NDArray[np.bool_]
     ) -> tuple[float | None, float | None]:
         """Rms curvature [1/m], and step of a pixel over the range, around what is attracted."""
         from ...roughness.statistics import rms_curvature, rms_slope
@@ -192,7 +199,7 @@ class Adhesion(Attraction[AdhesionPart]):
         step = max(pixel) * rms_slope(heights, pixel, periodic) / self.law.range
         return curvature, step
 
-    def _tabor(self, contact: Contact, curvature: float | None) -> float | None:
+    def _tabor(self, contact: SolvedContact, curvature: float | None) -> float | None:
         from ...adhesion.parameters import tabor_parameter
 
         if not curvature:
@@ -201,7 +208,7 @@ class Adhesion(Attraction[AdhesionPart]):
         modulus = contact_modulus(contact.scene)
         return float(tabor_parameter(radius, law.work_of_adhesion, modulus, law.range))
 
-    def validity(self, contact: Contact, part: AdhesionPart) -> tuple[ValidityNumber, ...]:
+    def validity(self, contact: SolvedContact, part: AdhesionPart) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         cure = self.law.cure_of_trapping(part.trapping_number, _MOST_TRAPPING)
         found = [

@@ -40,7 +40,7 @@ __all__ = [
     "Balance",
     "BoundedContact",
     "Compliance",
-    "Contact",
+    "SolvedContact",
     "ContactEffect",
     "DisplacementTerm",
     "FixedHardness",
@@ -52,6 +52,7 @@ __all__ = [
     "Observer",
     "PressureBound",
     "Scalar",
+    "SurfaceTraction",
     "VaryingHardness",
     "effects_of",
 ]
@@ -89,12 +90,13 @@ class AttractedContact(NamedTuple):
     n_contacts: int
 
 
-class Contact(NamedTuple):
+class SolvedContact(NamedTuple):
     """A solved contact as the effects see it: maps (ny, nx) in SI units.
 
     `bounded` is there with a `PressureBound`, `frictional` with a `DisplacementTerm`, `attracted`
-    with an `Attraction`, and the properties of the `liquid` at the temperature of the scene where
-    an effect needs them. With an `Attraction` the pressure is negative where it pulls.
+    with an `Attraction`, `tractions` on the lower body along x and y [Pa] with a `SurfaceTraction`,
+    and the properties of the `liquid` at the temperature of the scene where an effect needs them.
+    With an `Attraction` the pressure is negative where it pulls.
     """
 
     scene: ContactScene
@@ -107,6 +109,7 @@ class Contact(NamedTuple):
     frictional: FrictionalContact | None = None
     liquid_state: LiquidState | None = None
     attracted: AttractedContact | None = None
+    tractions: tuple[Map, Map] | None = None
 
     @property
     def touching(self) -> NDArray[np.bool_]:
@@ -256,11 +259,11 @@ class ContactEffect(Effect, Generic[Part]):
         """Return the maps that this effect adds to the unknowns of the contact."""
         return ()
 
-    def observe(self, contact: Contact) -> Part | None:
+    def observe(self, contact: SolvedContact) -> Part | None:
         """Return what this effect adds to the result; None if it has no part of its own."""
         return None
 
-    def validity(self, contact: Contact, part: Any) -> tuple[ValidityNumber, ...]:
+    def validity(self, contact: SolvedContact, part: Any) -> tuple[ValidityNumber, ...]:
         """Whether the model is in its range in a solved contact; `part` is that of the effect."""
         return ()
 
@@ -292,10 +295,10 @@ class PressureBound(ContactEffect[Part]):
         return (LocalHardness(law, view.displacements, grid.shape, grid.area, self.name),)
 
     @abc.abstractmethod
-    def observe_bounded(self, contact: Contact, bounded: BoundedContact) -> Part:
+    def observe_bounded(self, contact: SolvedContact, bounded: BoundedContact) -> Part:
         """Return where and how the bound acts in a solved contact."""
 
-    def observe(self, contact: Contact) -> Part | None:
+    def observe(self, contact: SolvedContact) -> Part | None:
         """See `ContactEffect.observe`."""
         return self.observe_bounded(contact, contact.bounded) if contact.bounded else None
 
@@ -310,7 +313,7 @@ class LoadTerm(ContactEffect[Part]):
         """Whether the force adds to the load that presses the bodies together."""
 
     @abc.abstractmethod
-    def largest_force(self, contact: Contact) -> float:
+    def largest_force(self, contact: SolvedContact) -> float:
         """Return a bound of the force [N]: none of the contacts of the scene has more."""
 
     @abc.abstractmethod
@@ -318,7 +321,7 @@ class LoadTerm(ContactEffect[Part]):
         """Return the force [N] of a part."""
 
     @abc.abstractmethod
-    def needs_balance(self, contact: Contact, part: Part) -> bool:
+    def needs_balance(self, contact: SolvedContact, part: Part) -> bool:
         """Whether the force is left out of the load and too large for that."""
 
     @abc.abstractmethod
@@ -330,7 +333,7 @@ class LoadTerm(ContactEffect[Part]):
         """Return the part with the force that balances."""
 
     @abc.abstractmethod
-    def observe(self, contact: Contact) -> Part:
+    def observe(self, contact: SolvedContact) -> Part:
         """Return the force and where it acts, for a given contact."""
 
 
@@ -362,10 +365,10 @@ class DisplacementTerm(ContactEffect[Part]):
         return (TractionDisplacement(caused_by, view.grid.shape, own, self.name),)
 
     @abc.abstractmethod
-    def observe_frictional(self, contact: Contact, frictional: FrictionalContact) -> Part:
+    def observe_frictional(self, contact: SolvedContact, frictional: FrictionalContact) -> Part:
         """Return what the displacement changes in a solved contact."""
 
-    def observe(self, contact: Contact) -> Part | None:
+    def observe(self, contact: SolvedContact) -> Part | None:
         """See `ContactEffect.observe`."""
         return self.observe_frictional(contact, contact.frictional) if contact.frictional else None
 
@@ -385,14 +388,14 @@ class Attraction(ContactEffect[Part]):
         return (Tension(self.prepare(view.self_influence), view.grid.shape, self.name),)
 
     @abc.abstractmethod
-    def observe_attracted(self, contact: Contact, attracted: AttractedContact) -> Part:
+    def observe_attracted(self, contact: SolvedContact, attracted: AttractedContact) -> Part:
         """Return the tension and what follows from it in a solved contact."""
 
     @abc.abstractmethod
     def attracted_of(self, part: Part) -> AttractedContact:
         """Return the tension and the pixels in contact of a part."""
 
-    def observe(self, contact: Contact) -> Part | None:
+    def observe(self, contact: SolvedContact) -> Part | None:
         """See `ContactEffect.observe`."""
         return self.observe_attracted(contact, contact.attracted) if contact.attracted else None
 
@@ -402,8 +405,17 @@ class Observer(ContactEffect[Part]):
     """A quantity computed from the solved contact, without effect on it."""
 
     @abc.abstractmethod
-    def observe(self, contact: Contact) -> Part:
+    def observe(self, contact: SolvedContact) -> Part:
         """Return what this effect adds to the result."""
+
+
+@frozen(kw_only=True)
+class SurfaceTraction(Observer[Part]):
+    """Friction in a solved contact: tractions along its surfaces; none or one."""
+
+    @abc.abstractmethod
+    def tractions(self, part: Part) -> tuple[Map, Map]:
+        """Return the tractions on the lower body along x and y [Pa], (ny, nx) each."""
 
 
 def effects_of(scene: ContactScene) -> tuple[ContactEffect[Any], ...]:

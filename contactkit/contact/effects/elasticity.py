@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ...scene.materials import Stack
     from ...scene.scenes import ContactScene
     from ...scene.window import Axis, Grid
-    from .base import Contact, Map, SymbolMaker
+    from .base import Map, SolvedContact, SymbolMaker
 
 __all__ = ["HalfSpace", "LayeredHalfSpace", "bodies_of", "contact_modulus", "layers_of"]
 
@@ -93,7 +93,7 @@ class LayeredHalfSpace(Compliance):
         """See `Compliance.prepare`."""
         return tuple(_maker(stack, grid) for stack in scene.interface.stacks)
 
-    def validity(self, contact: Contact, part: None) -> tuple[ValidityNumber, ...]:
+    def validity(self, contact: SolvedContact, part: None) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         stacks = contact.scene.interface.stacks
         layers = [layer for stack in stacks for layer in stack.layers]
@@ -129,7 +129,7 @@ def contact_modulus(scene: ContactScene) -> float:
     return 1.0 / sum(1.0 / material.plane_strain_modulus for material in tops)
 
 
-def _indentation(contact: Contact, thickness: float) -> ValidityNumber:
+def _indentation(contact: SolvedContact, thickness: float) -> ValidityNumber:
     """Displacement over the thickness of what a rigid base carries, the thinner of two bodies."""
     return ValidityNumber(
         name="displacement over the thickness on the base",

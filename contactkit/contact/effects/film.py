@@ -11,7 +11,7 @@ from attrs import Attribute, field, frozen
 from ...units import si
 from ...validators import optional, part, positive, refuse
 from ...validity import ValidityNumber
-from .base import Array, Balance, Contact, LoadTerm, Scalar
+from .base import Array, Balance, LoadTerm, Scalar, SolvedContact
 
 if TYPE_CHECKING:
     import numpy as np
@@ -66,7 +66,7 @@ def _balance(part: FilmPart) -> ValidityNumber:
     )
 
 
-def _is_only_reported(effect: FilmMeniscus, contact: Contact) -> bool:
+def _is_only_reported(effect: FilmMeniscus, contact: SolvedContact) -> bool:
     """Whether the film leaves alone a load that it adds to; an imposed approach is no load."""
     load = contact.scene.loading.mean_pressure(contact.grid.area)
     return load is not None and not effect.self_consistent
@@ -143,7 +143,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
             )
         return tuple(lacking)
 
-    def _force(self, contact: Contact, area: float) -> float:
+    def _force(self, contact: SolvedContact, area: float) -> float:
         """Meniscus force [N] of an area [m2], Eq. (2.43)."""
         from ...capillary.film_islands import film_force
 
@@ -156,7 +156,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
     def _height(self) -> float:
         return self.meniscus_height if self.meniscus_height is not None else self.film_thickness
 
-    def largest_force(self, contact: Contact) -> float:
+    def largest_force(self, contact: SolvedContact) -> float:
         """See `LoadTerm.largest_force`: that of a film that fills the whole window."""
         return self._force(contact, contact.grid.area)
 
@@ -164,7 +164,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
         """See `LoadTerm.force_of`."""
         return part.force
 
-    def needs_balance(self, contact: Contact, part: FilmPart) -> bool:
+    def needs_balance(self, contact: SolvedContact, part: FilmPart) -> bool:
         """See `LoadTerm.needs_balance`."""
         return _is_only_reported(self, contact) and abs(part.relative_force) > _WEAK
 
@@ -172,7 +172,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
         """See `LoadTerm.estimated`."""
         return part._replace(self_consistent_force=force)
 
-    def validity(self, contact: Contact, part: FilmPart) -> tuple[ValidityNumber, ...]:
+    def validity(self, contact: SolvedContact, part: FilmPart) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         if self.self_consistent:
             return (_balance(part),)
@@ -194,7 +194,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
         """See `LoadTerm.balanced`."""
         return part._replace(**balance._asdict())
 
-    def observe(self, contact: Contact) -> FilmPart:
+    def observe(self, contact: SolvedContact) -> FilmPart:
         """See `LoadTerm.observe`."""
         from ...capillary.film_islands import meniscus_area
 

@@ -11,7 +11,7 @@ from attrs import field, frozen
 
 from ...units import si
 from ...validators import finite, friction_coefficient
-from .base import Array, Contact, DisplacementTerm, FrictionalContact, Observer, Scalar
+from .base import Array, DisplacementTerm, FrictionalContact, Scalar, SolvedContact, SurfaceTraction
 from .elasticity import bodies_of
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class CouplingPart(NamedTuple):
 
 
 @frozen(kw_only=True)
-class FrictionTraction(Observer[FrictionPart]):
+class FrictionTraction(SurfaceTraction[FrictionPart]):
     """Sliding contact: each pixel carries a traction of friction times pressure.
 
     The traction on the lower body points where the upper body slides, the one on the upper body
@@ -108,11 +108,15 @@ class FrictionTraction(Observer[FrictionPart]):
             return ("RigidBase(bonded=True): nothing holds a body that slides on its base",)
         return ()
 
-    def observe(self, contact: Contact) -> FrictionPart:
+    def observe(self, contact: SolvedContact) -> FrictionPart:
         """See `Observer.observe`."""
         ratio, pressure = self.components(), contact.contact_pressure
         load = float(pressure.sum()) * contact.grid.pixel_area
         return FrictionPart(ratio.x * pressure, ratio.y * pressure, self.coefficient * load)
+
+    def tractions(self, part: FrictionPart) -> tuple[Map, Map]:
+        """See `SurfaceTraction.tractions`."""
+        return part.traction_x, part.traction_y
 
 
 @frozen(kw_only=True)
@@ -157,7 +161,9 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
 
         return displacement
 
-    def observe_frictional(self, contact: Contact, frictional: FrictionalContact) -> CouplingPart:
+    def observe_frictional(
+        self, contact: SolvedContact, frictional: FrictionalContact
+    ) -> CouplingPart:
         """See `DisplacementTerm.observe_frictional`: against the same load without coupling."""
         without = frictional.pressure_without
         maximum = max(float(without.max()), sys.float_info.min)

@@ -15,7 +15,7 @@ from ...capillary.kelvin import meniscus_height
 from ...units import si
 from ...validators import choice, optional, positive, refuse
 from ...validity import ValidityNumber
-from .base import Array, Contact, Observer, Scalar
+from .base import Array, Observer, Scalar, SolvedContact
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -178,11 +178,11 @@ class IslandBridges(Observer[IslandPart]):
             )
         return tuple(lacking)
 
-    def observe(self, contact: Contact) -> IslandPart:
+    def observe(self, contact: SolvedContact) -> IslandPart:
         """See `Observer.observe`."""
         return bridges_of(self, contact)
 
-    def validity(self, contact: Contact, part: IslandPart) -> tuple[ValidityNumber, ...]:
+    def validity(self, contact: SolvedContact, part: IslandPart) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         if not contact.grid.periodic:
             return ()
@@ -196,13 +196,13 @@ class IslandBridges(Observer[IslandPart]):
             ),
         )
 
-    def at_pressure(self, contact: Contact, pressure: float) -> IslandPart:
+    def at_pressure(self, contact: SolvedContact, pressure: float) -> IslandPart:
         """Return the same for a pressure [Pa], in place of that of the scene or of a film."""
         return bridges_of(self, contact, pressure)
 
 
 def bridges_of(
-    effect: IslandBridges, contact: Contact, pressure: float | None = None
+    effect: IslandBridges, contact: SolvedContact, pressure: float | None = None
 ) -> IslandPart:
     """Find the islands, put a bridge on each, and add up their forces."""
     wetting = _wetting(effect, contact, pressure)
@@ -220,7 +220,7 @@ def bridges_of(
     return _part(effect, contact, wetting, wet & ~touching, found, curvature, state)
 
 
-def _wetting(effect: IslandBridges, contact: Contact, pressure: float | None) -> _Wetting:
+def _wetting(effect: IslandBridges, contact: SolvedContact, pressure: float | None) -> _Wetting:
     meniscus, tension = contact.scene.meniscus, contact.liquid.surface_tension
     angles = (meniscus.contact_angle_lower, meniscus.contact_angle_upper)
     if pressure is None:
@@ -236,7 +236,7 @@ def _wetting(effect: IslandBridges, contact: Contact, pressure: float | None) ->
     return _Wetting(tension, angles, thickness, pressure, height)
 
 
-def _wet(contact: Contact, wetting: _Wetting, connectivity: Literal[4, 8]) -> Mask:
+def _wet(contact: SolvedContact, wetting: _Wetting, connectivity: Literal[4, 8]) -> Mask:
     """Pixels of islands that hold liquid, contact included."""
     cut = np.asarray(contact.gap < wetting.height)
     if wetting.pressure is not None:
@@ -286,7 +286,7 @@ def _bridges(gap: Floats, volume: Floats, curvature: Floats, wetting: _Wetting) 
 
 def _part(
     effect: IslandBridges,
-    contact: Contact,
+    contact: SolvedContact,
     wetting: _Wetting,
     is_meniscus: Mask,
     found: kernel.Islands,

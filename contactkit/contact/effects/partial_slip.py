@@ -24,9 +24,8 @@ from ...validators import (
 )
 from ...validity import ValidityNumber
 from ..slip.states import PartialSlipPart, SlipCoupling, Zone
-from .base import Array, Contact, LoadHistory, Observer, Scalar
+from .base import Array, LoadHistory, Scalar, SolvedContact, SurfaceTraction
 from .elasticity import bodies_of, contact_modulus, layers_of
-from .friction import FrictionTraction
 
 if TYPE_CHECKING:
     import numpy as np
@@ -50,9 +49,14 @@ _CURVES = (
 __all__ = ["PartialSlip"]
 
 _TRANSVERSE = 0.4  # q_y left out over nu/(2 - nu), measured on a sphere and a rough surface
+# A tenth of the largest traction along the load, which is reached at nu = 0.4.
 _MOST_TRANSVERSE = 0.1
+# The pressure of a pixel changes by one to four times that: 10 to 40 %.
 _MOST_COUPLING = 0.1
+# Loosest error that steps may be chosen for: beyond, the number of steps says as much as it does.
 _MOST_STEP_ERROR = 0.1
+# A cycle of a sphere loses the right work to 2e-5 at this tolerance, to 0.4 % at four to ten times
+# it; at 0.1 nothing slips in its last step, and two thirds of the loss are missing.
 _LOOSEST = 1e-3
 _PRESSING = 0.01  # error by the steps of pressing, unless another is asked for
 _NARROWEST = 2.0  # pixels of slip around what sticks: the loss of a sphere is then right to 1 %
@@ -92,7 +96,7 @@ def _last(name: str) -> Any:
 
 
 @frozen(kw_only=True)
-class PartialSlip(Observer[PartialSlipPart]):
+class PartialSlip(SurfaceTraction[PartialSlipPart]):
     r"""Stick and slip of the contact under a tangential load that follows a path.
 
     The pressure is that of contact without friction, and stays: exact for two equal bodies and
@@ -277,15 +281,6 @@ class PartialSlip(Observer[PartialSlipPart]):
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""
         missing = []
-        if scene.effect(FrictionTraction) is not None:
-            missing.append(
-                "a scene without FrictionTraction, which slides everywhere: list one of them"
-            )
-        if any(effect.name == "subsurface-stress" for effect in scene.effects):
-            missing.append(
-                "a scene without SubsurfaceStress, which does not have its traction: list it with "
-                "FrictionTraction for full sliding"
-            )
         turned = [s for s in self.path if s.direction is not None and s.direction != self.direction]
         if self.components == 1 and turned:
             missing.append(
@@ -310,7 +305,7 @@ class PartialSlip(Observer[PartialSlipPart]):
             )
         return missing
 
-    def observe(self, contact: Contact) -> PartialSlipPart:
+    def observe(self, contact: SolvedContact) -> PartialSlipPart:
         """See `Observer.observe`."""
         from ..slip.load_path import follow
 
@@ -318,8 +313,12 @@ class PartialSlip(Observer[PartialSlipPart]):
         pressure = contact.contact_pressure
         return follow(pressure, contact.grid, stacks, self.path, self.law, contact.threads)
 
+    def tractions(self, part: PartialSlipPart) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """See `SurfaceTraction.tractions`: those at the end of the path."""
+        return part.traction_x[-1], part.traction_y[-1]
+
     def validity(
-        self, contact: Contact, part: PartialSlipPart | None
+        self, contact: SolvedContact, part: PartialSlipPart | None
     ) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         interface = contact.scene.interface
@@ -371,7 +370,7 @@ class PartialSlip(Observer[PartialSlipPart]):
             )
         return tuple(found)
 
-    def _left_out(self, contact: Contact, part: PartialSlipPart | None) -> ValidityNumber:
+    def _left_out(self, contact: SolvedContact, part: PartialSlipPart | None) -> ValidityNumber:
         return ValidityNumber(
             name="normal and tangential coupling left out",
             value=None if part is None else _coupling(contact, part),
@@ -391,7 +390,7 @@ def _surfaces(interface: Interface) -> list[tuple[float, float]]:
     ]
 
 
-def _coupling(contact: Contact, part: PartialSlipPart) -> float:
+def _coupling(contact: SolvedContact, part: PartialSlipPart) -> float:
     """Range of the normal displacement by the largest tractions over that by pressure [-]."""
     import numpy as np
 
@@ -408,7 +407,7 @@ def _coupling(contact: Contact, part: PartialSlipPart) -> float:
     return relative_coupling(caused, contact.displacement, strain * contact.grid.area**0.5)
 
 
-def _slip_width(contact: Contact, part: PartialSlipPart, coefficient: float) -> float | None:
+def _slip_width(contact: SolvedContact, part: PartialSlipPart, coefficient: float) -> float | None:
     """Least width of the slip between what sticks and the edges of contact, in pixels.
 
     Twice its pixels over those along its edges. None if nothing sticks, if the force is too small

@@ -13,10 +13,10 @@ from ...validity import ValidityNumber
 from .base import (
     Array,
     BoundedContact,
-    Contact,
     HardnessLaw,
     PressureBound,
     Scalar,
+    SolvedContact,
 )
 from .elasticity import contact_modulus
 from .hardness_rules import ContinuousHardness, HardnessRule, as_rule
@@ -29,7 +29,10 @@ if TYPE_CHECKING:
     from ...scene.window import Grid
     from .base import Map
 
-_MOST_PLASTIC = 0.5
+# Where more than half of the contact is at the hardness, the load is shared out by the hardness
+# rather than by the elastic solid, which is all that gives way here.
+MOST_PLASTIC = 0.5
+"""Fraction of the contact at the hardness from which on the answer is in doubt [-]."""
 _SOFTEST, _HARDEST = 1e-5, 1.0  # hardness over E*: single crystals; five times that of glasses
 AT_HARDNESS = 1.0 - 1e-6
 """Pressure over hardness from which on a pixel is plastic [-]: one that is loaded again to where it
@@ -112,7 +115,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
         """See `PressureBound.prepare`."""
         return self.rule.prepare(scene, grid)
 
-    def observe_bounded(self, contact: Contact, bounded: BoundedContact) -> PlasticPart:
+    def observe_bounded(self, contact: SolvedContact, bounded: BoundedContact) -> PlasticPart:
         """See `PressureBound.observe_bounded`: pixels at the hardness."""
         import numpy as np
 
@@ -122,14 +125,14 @@ class HardnessLimit(PressureBound[PlasticPart]):
         overlap = np.where(is_plastic, bounded.overlap, 0.0)
         return PlasticPart(is_plastic, area, bounded.hardness, overlap)
 
-    def validity(self, contact: Contact, part: PlasticPart) -> tuple[ValidityNumber, ...]:
+    def validity(self, contact: SolvedContact, part: PlasticPart) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
         touching = int((contact.pressure > 0.0).sum())
         return (
             ValidityNumber(
                 name="fraction of the contact at the hardness",
                 value=int(part.is_plastic.sum()) / touching if touching else None,
-                high=_MOST_PLASTIC,
+                high=MOST_PLASTIC,
                 detail="the volume that plastic flow displaces is left out, and elasticity carries "
                 "the rest of the load; lower the load, or take the area as load over hardness"
                 if touching
@@ -139,7 +142,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
         )
 
 
-def _relative_hardness(contact: Contact, hardness: Map | float) -> ValidityNumber:
+def _relative_hardness(contact: SolvedContact, hardness: Map | float) -> ValidityNumber:
     """Hardness over E*, the smallest or, where that is too large, the largest."""
     import numpy as np
 

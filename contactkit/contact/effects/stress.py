@@ -19,7 +19,7 @@ from ...elasticity.stress.reading import READINGS, Reading
 from ...elasticity.stress.tractions import Tractions
 from ...units import si
 from ...validators import choice, fraction, non_negative, positive, refuse
-from .base import Array, Attraction, Contact, DisplacementTerm, Observer, Scalar
+from .base import Array, Attraction, DisplacementTerm, Observer, Scalar, SolvedContact
 from .elasticity import layers_of
 from .friction import FrictionTraction
 
@@ -119,7 +119,8 @@ class SubsurfaceStress(Observer[StressPart]):
     """Stress in the lower body, on planes at depth and on both faces of each interface.
 
     In-plane stresses jump at interfaces, so a maximum may sit on either face. Where friction
-    acts its traction is included. Maxima are those of the pixels of the planes; each comes with
+    acts its traction is included: that of `FrictionTraction`, or that of `PartialSlip` at the end
+    of its path. Maxima are those of the pixels of the planes; each comes with
     an estimate of how much larger the stress may be between the planes.
 
     Parameters
@@ -212,7 +213,7 @@ class SubsurfaceStress(Observer[StressPart]):
             )
         return tuple(missing)
 
-    def observe(self, contact: Contact) -> StressPart:
+    def observe(self, contact: SolvedContact) -> StressPart:
         """See `Observer.observe`."""
         stack = contact.scene.interface.lower.elastic_stack
         found = _Planes(self, contact, stack)
@@ -222,7 +223,7 @@ class SubsurfaceStress(Observer[StressPart]):
             places = found.missing() if self.depths is None else []
         return found.part()
 
-    def _first_places(self, contact: Contact, stack: Stack) -> list[Place]:
+    def _first_places(self, contact: SolvedContact, stack: Stack) -> list[Place]:
         """Depth [m] and side of each plane to begin with, and both faces of interfaces."""
         if self.depths is not None:
             wanted, deepest = [(z, "+") for z in self.depths], self.depths[-1] * (1.0 + 1e-12)
@@ -252,7 +253,7 @@ def _ordered(places: Sequence[Place]) -> list[Place]:
     return sorted(places, key=lambda place: (place[0], place[1] == "+"))
 
 
-def _deepest(contact: Contact, stack: Stack) -> float:
+def _deepest(contact: SolvedContact, stack: Stack) -> float:
     """Depth [m] below which no maximum is looked for.
 
     Half a period, or an isolated window, or its side across if it repeats along one axis; at most
@@ -266,7 +267,7 @@ def _deepest(contact: Contact, stack: Stack) -> float:
     return min(deepest, stack.depths[-1]) if stack.base else deepest
 
 
-def _sharpest(contact: Contact) -> float:
+def _sharpest(contact: SolvedContact) -> float:
     """Radius [m] of the smallest spot of high pressure, that of a circle of its area."""
     from scipy.ndimage import label
 
@@ -296,7 +297,7 @@ class _Kept(NamedTuple):
 class _Planes:
     """Planes of stress below a contact, added in any order, and what is kept of them."""
 
-    def __init__(self, effect: SubsurfaceStress, contact: Contact, stack: Stack) -> None:
+    def __init__(self, effect: SubsurfaceStress, contact: SolvedContact, stack: Stack) -> None:
         friction = contact.scene.effect(FrictionTraction)
         self._effect, self._contact = effect, contact
         ratio = friction.components() if friction is not None else None
@@ -304,9 +305,10 @@ class _Planes:
         own = friction.coefficient if friction is not None and effect.coefficients else 0.0
         self._sliding = (own, *effect.coefficients)
         x, y = None, None
-        if contact.attracted is not None and ratio is not None:  # no friction across the gap
-            pressed = contact.contact_pressure
-            x, y, ratio = ratio.x * pressed, ratio.y * pressed, None
+        # In proportion to the pressure, tractions cost no transforms of their own; those of partial
+        # slip are not, nor those beside an attraction: there is no friction across the gap.
+        if contact.tractions is not None and (ratio is None or contact.attracted is not None):
+            (x, y), ratio = contact.tractions, None
         self._field = StressField(
             Tractions(contact.grid.pixel_size, contact.pressure, x, y),
             layers_of(stack),

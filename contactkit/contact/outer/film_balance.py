@@ -15,10 +15,10 @@ from ..companion import coarser, largest_factor
 from ..effects.base import (
     Balance,
     Compliance,
-    Contact,
     FixedHardness,
     LoadTerm,
     PressureBound,
+    SolvedContact,
 )
 from ..plan import ContactPlan
 from ..solver.warm_start import MAX_SOLUTIONS
@@ -327,7 +327,9 @@ def _interpolated_balance(search: _Search[Part], low: _Trial[Part], high: _Trial
     return low.load + min(max(at, margin), 1.0 - margin) * width
 
 
-def _interpolated(low: Contact, high: Contact, at: float, influence: float) -> Contact:
+def _interpolated(
+    low: SolvedContact, high: SolvedContact, at: float, influence: float
+) -> SolvedContact:
     """Contact between two of about the same load.
 
     A pixel that touches in one of them alone does so from where its gap, less the displacement of a

@@ -14,10 +14,10 @@ from attrs import evolve
 from ..effects.base import (
     AttractedContact,
     BoundedContact,
-    Contact,
     FixedHardness,
     FrictionalContact,
     InterfaceView,
+    SolvedContact,
     VaryingHardness,
     effects_of,
 )
@@ -51,7 +51,7 @@ class Solved(NamedTuple):
     """
 
     solution: Solution
-    contact: Contact
+    contact: SolvedContact
     hardness: Map | float | None
     values: dict[str, Map]
     memories: dict[str, Any]
@@ -209,7 +209,7 @@ def _solution_of(plan: ContactPlan, found: HeldContact) -> Solution:
 
 def _contact_of(
     plan: ContactPlan, found: HeldContact, hardness: Map | float | None, n_contacts: int
-) -> Contact:
+) -> SolvedContact:
     held, displacement = found.held, found.displacement
     if held.displacement is not None:
         displacement = displacement + held.displacement
@@ -221,7 +221,7 @@ def _contact_of(
         attracted = AttractedContact(held.tension, touching, own, n_contacts)
         for one in (held.tension, touching):
             one.flags.writeable = False
-    return Contact(
+    return SolvedContact(
         plan.scene,
         plan.grid,
         found.pressure,

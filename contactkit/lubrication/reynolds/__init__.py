@@ -11,7 +11,7 @@ shape_factor     Damping laws of any face, rough ones too, by the solver.
 rough_flow       Steady flow through rough gaps: flow factors, leakage.
 discretisation   Finite volumes: conductances, transport by walls, volumes.
 mesh             Unknowns and the sides of the cells.
-complementarity  Full and torn cells: active set, Fischer-Burmeister.
+complementarity  Full and cavitated cells: active set, Fischer-Burmeister.
 linear_systems   Sparse linear systems by SuperLU, CHOLMOD or multigrid.
 
 Examples

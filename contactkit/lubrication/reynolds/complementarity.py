@@ -1,4 +1,4 @@
-r"""The complementarity problem of a film that tears: P >= 0, s >= 0, P s = 0 in every cell.
+r"""The complementarity problem of a film that cavitates: P >= 0, s >= 0, P s = 0 in every cell.
 
 .. math:: \mathsf L P - \mathsf M s + f = 0, \qquad P = p - p_{cav} \ge 0, \qquad
           s = 1 - \theta \ge 0, \qquad P s = 0
@@ -99,6 +99,7 @@ def solve_active_set(problem: Problem, full: Set, limit: int) -> Solution:
         count += 1
         q, void = _with_set(problem, full)
         pressure = q + problem.drop
+        # A full cell gives way below its floor; a void one is full where liquid overfills it.
         new = np.where(full, pressure >= -ROUND_OFF * np.abs(q).max(), void < -ROUND_OFF)
         settled = bool(np.array_equal(new, full))
         if settled or count >= limit or new.tobytes() in seen:
@@ -122,10 +123,10 @@ def _with_set(problem: Problem, full: Set) -> tuple[Array, Array]:
         return q, np.where(full, 0.0, (matrix @ q + f) / problem.storage)
     from scipy.sparse import diags_array
 
-    kept, torn = diags_array(full * 1.0), diags_array(~full * 1.0)
+    kept, cavitated = diags_array(full * 1.0), diags_array(~full * 1.0)
     moved = problem.transport + diags_array(problem.storage)
     # The unknown of a void cell is -s, so that the diagonal is positive.
-    mixed = matrix @ kept + moved @ torn
+    mixed = matrix @ kept + moved @ cavitated
     w = solve_sparse(mixed, -known, problem.solver, is_symmetric=False)
     q[full], void[~full] = w[full], -w[~full]
     return q, void

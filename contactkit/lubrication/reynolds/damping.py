@@ -58,8 +58,8 @@ def film_tension(tension: float, strength: float) -> ValidityNumber:
         name="tension over the strength of the liquid",
         value=1.0 if abs(value - 1.0) < 1e-9 else value,
         high=1.0,
-        detail=f"the liquid is at {tension / 1e5:.3g} bar below ambient, and would have torn at "
-        f"{bears / 1e5:.3g} bar; give the film a TensionLimit (a drop and a strength), or move "
+        detail=f"the liquid is at {tension / 1e5:.3g} bar below ambient, and would have cavitated "
+        f"at {bears / 1e5:.3g} bar; give the film a TensionLimit (a drop and a strength), or move "
         f"more slowly",
         source="strength as given; else a vacuum at ambient pressure",
     )
@@ -141,7 +141,7 @@ class DampingLaw(abc.ABC):
         gap, speed, viscosity : float
             Where the law is used.
         strength : float
-            Tension below ambient at which the liquid tears [Pa].
+            Tension below ambient at which the liquid cavitates [Pa].
         density : float, optional
             Density of the liquid [kg/m3], for its inertia.
 

@@ -40,8 +40,8 @@ class GridFilm(Described):
         Pressure in a cavity, as a drop below ambient [Pa]; by default infinite: the film never
         cavitates.
     tensile_strength : float, optional
-        Tension below ambient at which an intact film tears [Pa], inf for one that never does. By
-        default that of the cavity, `drop`.
+        Tension below ambient at which an intact film cavitates [Pa], inf for one that never does.
+        By default that of the cavity, `drop`.
     compressibility : float
         Compressibility of the liquid in the gap [1/Pa]; a film without a reservoir needs it.
     density : float, optional
@@ -49,7 +49,7 @@ class GridFilm(Described):
 
     Notes
     -----
-    Two pressures: an intact film tears at ambient - tensile_strength; from then on the liquid
+    Two pressures: an intact film cavitates at ambient - tensile_strength; from then on the liquid
     that is connected with the spot holds no less than the cavity pressure, until it is full again.
     """
 
@@ -94,7 +94,7 @@ class GridFilm(Described):
 
     @property
     def strength(self) -> float:
-        """Tension below ambient at which an intact film tears [Pa]."""
+        """Tension below ambient at which an intact film cavitates [Pa]."""
         return self.drop if self.tensile_strength is None else self.tensile_strength
 
 
@@ -129,7 +129,7 @@ class GridFilmState:
         The discrete film that was solved; None for a film at rest that has not moved yet.
     excess : ndarray, optional
         Flow gained between the rim and the sides of its cells (`Rim.excess`) [m3/s].
-    is_torn : ndarray of bool, shape (ny, nx)
+    beside_cavity : ndarray of bool, shape (ny, nx)
         Where liquid is connected with a cavity.
     lower_velocity, upper_velocity : tuple of float
         Tangential velocities of the walls along x and y [m/s].
@@ -147,7 +147,7 @@ class GridFilmState:
     liquid_fraction: Array = field(repr=False)
     balance: Balance | None = field(default=None, repr=False)
     excess: Array | None = field(default=None, repr=False)
-    is_torn: NDArray[np.bool_] = field(repr=False)
+    beside_cavity: NDArray[np.bool_] = field(repr=False)
     lower_velocity: tuple[float, float] = (0.0, 0.0)
     upper_velocity: tuple[float, float] = (0.0, 0.0)
     iterations: int = 0

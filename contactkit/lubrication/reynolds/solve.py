@@ -43,7 +43,7 @@ PATIENCE = 4
 """Iterations of the active set before a coarser grid is asked for a better guess."""
 SMALLEST_GRID = 16
 """Cells along the longer side below which no coarser grid is asked."""
-_AT_REST = (0.0, 0.0)
+_AT_REST = (0.0, 0.0)  # walls that do not slide [m/s]
 
 Velocity = tuple[float, float]
 
@@ -106,13 +106,13 @@ def at_rest(film: GridFilm, gap: ArrayLike, liquid_fraction: ArrayLike = 1.0) ->
         worst = float(fraction.flat[np.argmax(np.abs(fraction - 0.5))])
         raise DescriptionError("liquid_fraction", worst, "lie between 0 and 1")
     fraction = np.where(face.loaded, fraction, 1.0)
-    torn = (fraction < 1.0).any() and math.isfinite(film.drop)
+    has_cavity = (fraction < 1.0).any() and math.isfinite(film.drop)
     state = GridFilmState(
         film=film,
         gap=height,
         pressure=np.where(face.loaded, film.ambient, face.pressure),
         liquid_fraction=fraction,
-        is_torn=face.loaded & bool(torn),
+        beside_cavity=face.loaded & bool(has_cavity),
     )
     warn(state.validity)
     return state
@@ -220,7 +220,7 @@ def steady_film(
     upper_velocity: Velocity = _AT_REST,
     solver: str | None = None,
 ) -> GridFilmState:
-    """Steady state of a sliding film, mass-conserving where it tears.
+    """Steady state of a sliding film, mass-conserving where it cavitates.
 
     Parameters
     ----------
@@ -238,7 +238,7 @@ def steady_film(
 
     Notes
     -----
-    The tensile strength is not used: a film that has slid long enough has torn.
+    The tensile strength is not used: a film that has slid long enough has cavitated.
     """
     face = film.face
     velocity = _sum(lower_velocity, upper_velocity)
@@ -274,7 +274,7 @@ def step_film(
     upper_velocity: Velocity = _AT_REST,
     solver: str | None = None,
 ) -> GridFilmState:
-    r"""Film after a step in time: mass-conserving, with the memory of where it has torn.
+    r"""Film after a step in time: mass-conserving, with the memory of where it has cavitated.
 
     Parameters
     ----------
@@ -347,8 +347,9 @@ def unchecked_step(
         film=film,
         face=face,
         gap=height,
+        # To be filled: the gap after the step less the liquid before it. Voids close first.
         growth=(height - state.liquid_fraction * state.gap) / dt,
-        floor=_floors(film, state.is_torn),
+        floor=_floors(film, state.beside_cavity),
         fraction=state.liquid_fraction,
         pressure=state.pressure,
         velocity=_sum(lower_velocity, upper_velocity),
@@ -357,22 +358,22 @@ def unchecked_step(
         solver=solver,
         full=full,
     )
-    torn = state.is_torn
+    beside = state.beside_cavity
     balance, found = _solve(task)
     count = found.iterations
-    new_torn = _torn(balance.mesh, face, found.void)
-    if film.strength > film.drop and (new_torn & ~torn).any():
+    new_beside = _beside_cavity(balance.mesh, face, found.void)
+    if film.strength > film.drop and (new_beside & ~beside).any():
         # The strength is that of the intact film: the cavity has its own pressure at once.
-        torn = torn | new_torn
-        task = task._replace(floor=_floors(film, torn))
+        beside = beside | new_beside
+        task = task._replace(floor=_floors(film, beside))
         balance, found = _solve(task)
         count += found.iterations
-        # Torn in this step, even where the liquid has closed again.
-        new_torn = _torn(balance.mesh, face, found.void)
+        # Cavitated in this step, even where the liquid has closed again.
+        new_beside = _beside_cavity(balance.mesh, face, found.void)
     after = _state(task, balance, found._replace(iterations=count))
     return evolve(
         after,
-        is_torn=new_torn,
+        beside_cavity=new_beside,
         time=state.time + dt,
         lower_velocity=lower_velocity,
         upper_velocity=upper_velocity,
@@ -448,18 +449,18 @@ def _rate_map(face: Face, rate: ArrayLike) -> Array:
     return np.array(np.broadcast_to(given, face.shape))
 
 
-def _floors(film: GridFilm, torn: NDArray[np.bool_]) -> Array:
-    """Least pressure of each cell: that of a cavity where the liquid has torn."""
-    return np.where(torn, film.floor, film.ambient - film.strength)
+def _floors(film: GridFilm, beside: NDArray[np.bool_]) -> Array:
+    """Least pressure of each cell: that of a cavity where the liquid has cavitated."""
+    return np.where(beside, film.floor, film.ambient - film.strength)
 
 
-def _torn(mesh: Mesh, face: Face, void: Array) -> NDArray[np.bool_]:
+def _beside_cavity(mesh: Mesh, face: Face, void: Array) -> NDArray[np.bool_]:
     """Cells whose liquid is connected with a cavity."""
     has_void = np.zeros(mesh.is_enclosed.size, bool)
     has_void[mesh.region[void > 0.0]] = True
-    torn = np.zeros(mesh.number.size, bool)
-    torn[mesh.loaded] = has_void[mesh.region[mesh.number[mesh.loaded]]]
-    return torn.reshape(face.shape)
+    beside = np.zeros(mesh.number.size, bool)
+    beside[mesh.loaded] = has_void[mesh.region[mesh.number[mesh.loaded]]]
+    return beside.reshape(face.shape)
 
 
 def _at_unknowns(mesh: Mesh, values: NDArray[Any]) -> NDArray[Any]:
@@ -569,7 +570,7 @@ def _state(task: Task, balance: Balance, found: Solution) -> GridFilmState:
     pressure[mesh.loaded] = found.q[which] + balance.reference
     fraction[mesh.loaded] = 1.0 - found.void[which]
     pressure, fraction = pressure.reshape(face.shape), fraction.reshape(face.shape)
-    torn = np.zeros(face.shape, bool)
+    beside = np.zeros(face.shape, bool)
     return GridFilmState(
         film=task.film,
         gap=task.gap,
@@ -577,7 +578,7 @@ def _state(task: Task, balance: Balance, found: Solution) -> GridFilmState:
         liquid_fraction=fraction,
         balance=balance,
         excess=_excess(task, mesh),
-        is_torn=torn,
+        beside_cavity=beside,
         iterations=found.iterations,
         time=0.0 if math.isinf(task.dt) else task.dt,
     )

@@ -2,52 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
-
 from ...analyses.division import DivisionResult
 from ...analyses.load_displacement.curve import LoadDisplacementCurve
 from ...analyses.pull_off import PullOffCurve
 from ...analyses.stick_slip import StickSlip
-from ...errors import nearest
-from ...scene.curve import Curve
 from .. import adhesion, load_displacement, slip
 from ..style import Axes
 from .base import CurveFigures, registered_figures
 
 __all__ = [
-    "AnyCurveFigures",
     "DivisionFigures",
     "LoadDisplacementFigures",
     "PullOffFigures",
     "StickSlipFigures",
 ]
-
-
-@registered_figures.register(Curve)
-class AnyCurveFigures(CurveFigures[Curve]):
-    """Figures of any curve: those that its class names, `Curve.shown`, and its columns."""
-
-    def __getattr__(self, name: str) -> Callable[..., Axes]:
-        """Return the function that draws a figure of `Curve.shown`."""
-        if name[0] == "_" or name not in self._owner.shown:
-            known = ", ".join(self.available)
-            raise AttributeError(f"no figure {name!r}; {nearest(name, self.available)}; {known}")
-        columns, over = self._owner.shown[name]
-        draw: Callable[..., Axes] = partial(self.curves, *columns, over=over)
-        return draw
-
-    @property
-    def available(self) -> tuple[str, ...]:
-        """Names of the figures that can be drawn."""
-        return tuple(dict.fromkeys((*super().available, *self._owner.shown)))
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self._owner.shown]
-
-    def pictures(self) -> dict[str, Callable[[], Axes]]:
-        """See `Figures.pictures`."""
-        return {name: getattr(self, name) for name in self._owner.shown} or super().pictures()
 
 
 @registered_figures.register(DivisionResult)

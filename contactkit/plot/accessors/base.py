@@ -8,12 +8,15 @@ from importlib import import_module
 from inspect import isfunction, signature
 from typing import Any, Generic, TypeVar
 
+from ...errors import nearest
+from ...scene.curve import Curve
 from ...scene.figures import Drawn
 from ...scene.tabular import Tabular
 from ..curves import curve_names, curves
 from ..style import Axes
 
 __all__ = [
+    "AnyCurveFigures",
     "CurveFigures",
     "Figures",
     "figures_of",
@@ -137,6 +140,32 @@ class CurveFigures(Figures[C]):
     def curve_names(self) -> tuple[str, ...]:
         """Names of the curves that `curves` draws."""
         return curve_names(self._owner.contents())
+
+
+@registered_figures.register(Curve)
+class AnyCurveFigures(CurveFigures[Curve]):
+    """Figures of any curve: those that its class names, `Curve.shown`, and its columns."""
+
+    def __getattr__(self, name: str) -> Callable[..., Axes]:
+        """Return the function that draws a figure of `Curve.shown`."""
+        if name[0] == "_" or name not in self._owner.shown:
+            known = ", ".join(self.available)
+            raise AttributeError(f"no figure {name!r}; {nearest(name, self.available)}; {known}")
+        columns, over = self._owner.shown[name]
+        draw: Callable[..., Axes] = partial(self.curves, *columns, over=over)
+        return draw
+
+    @property
+    def available(self) -> tuple[str, ...]:
+        """Names of the figures that can be drawn."""
+        return tuple(dict.fromkeys((*super().available, *self._owner.shown)))
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._owner.shown]
+
+    def pictures(self) -> dict[str, Callable[[], Axes]]:
+        """See `Figures.pictures`."""
+        return {name: getattr(self, name) for name in self._owner.shown} or super().pictures()
 
 
 def of_absent_effects(plan: Any) -> frozenset[str]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from ...errors import DescriptionError
@@ -20,6 +21,10 @@ __all__ = ["SensitivityFigures", "StudyFigures"]
 @registered_figures.register(Study)
 class StudyFigures(Figures[Study[Any]]):
     """Figures of the numbers of a study over its parameters."""
+
+    def pictures(self) -> dict[str, Callable[[], Axes]]:
+        """See `Figures.pictures`: every number that changes between the points."""
+        return {name: partial(self.number, name) for name in self._owner.telling()}
 
     def number(self, name: str, *, over: str | None = None, ax: Axes | None = None) -> Axes:
         """Draw a number over a parameter, a line for each combination of the others.
@@ -59,17 +64,17 @@ class StudyFigures(Figures[Study[Any]]):
 
 @registered_figures.register(Sensitivity)
 class SensitivityFigures(Figures[Sensitivity]):
-    """Figures of what the assumptions of a scene do to an answer."""
+    """Figures of what the assumptions of a scene do to a quantity."""
 
     def tornado(
         self,
         *,
         most: int = 12,
         names: Mapping[str, str] | None = None,
-        missing: str = "no answer",
+        missing: str = "no result",
         ax: Axes | None = None,
     ) -> Axes:
-        """Draw the answer over the range of each assumption, the most influential on top.
+        """Draw the quantity over the range of each assumption, the most influential on top.
 
         Parameters
         ----------
@@ -78,7 +83,7 @@ class SensitivityFigures(Figures[Sensitivity]):
         names : mapping, optional
             What to call the assumptions, by path; else the end of the path.
         missing : str
-            What it means that there is no answer, such as "never released".
+            What it means that there is no result, such as "never released".
         ax : Axes, optional
             Where to draw; a new figure if not given.
         """

@@ -1,4 +1,4 @@
-"""Film between flats that can tear, as numbers."""
+"""Film between flats that can cavitate, as numbers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["DiscFilm"]
 
 @frozen
 class DiscFilm:
-    """One of `menisci` equal films between flats, and the tensions at which its liquid tears.
+    """One of `menisci` equal films between flats, and the tensions at which its liquid cavitates.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ class DiscFilm:
     viscosity : float
         Viscosity of the liquid [Pa.s].
     strength : float
-        Tension at which the whole liquid tears [Pa], as a drop below ambient pressure.
+        Tension at which the full film cavitates [Pa], as a drop below ambient pressure.
     drop : float
         Ambient pressure less that in the cavity [Pa]; not above `strength`.
     """

@@ -1,4 +1,4 @@
-"""Events of a cavity: its birth, the turns of its edge, and the film that is full again."""
+"""Events of a cavity: its inception, the turns of its edge, and the film that is full again."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from collections.abc import Callable, Sequence
 from typing import Protocol, TypeVar
 
 from ...lubrication.disc_cavity import receding_edge
-from ...lubrication.torn_film import (
+from ...lubrication.rupture_history import (
     cut,
     edge_of,
     grown,
+    liquid_within,
     outermost,
     piece_along,
     piece_at,
-    torn_to,
     void_within,
 )
 from ...numerics.events import EventStep, step_to_event
@@ -27,9 +27,9 @@ __all__ = [
     "after_jump",
     "after_step",
     "beyond_event",
-    "born",
+    "inception",
     "first_event",
-    "is_torn_by",
+    "is_inception",
 ]
 
 S = TypeVar("S")
@@ -40,30 +40,29 @@ class Tense(Protocol):
 
     @property
     def strength(self) -> float:
-        """Tension at which the whole liquid cavitates [Pa], as a drop below ambient pressure."""
+        """Tension at which the full film cavitates [Pa], as a drop below ambient pressure."""
 
     def tension(self, gap: float, speed: float, void: float = 0.0) -> float:
         """Highest tension in the full film [Pa] at a gap [m] and a speed [m/s]."""
 
 
-_HEALED = 1e-9  # void over the film at which it counts as full
+_REFORMED = 1e-9  # void over the film at which it counts as full
 _NOTHING = 1e-8  # the same of a cavity that never was deeper than `_SHALLOW`
 _SAME = 1e-12  # squares of the edge that are closer, relatively, are one
 _SHALLOW = 1e-6  # depth of the void at the edge, over the gap, where round-off moves the edge
-_RECEDES = 1e-6  # flow over the edge, over that into the film, which is more than rounding
+_RECEDES = 1e-6  # flow over the edge, over that into the film, which is more than round-off
 
 
-def is_torn_by(law: Tense, cavity: Cavity, gap: float, speed: float) -> bool:
-    """Whether a full film tears at a gap [m] and a speed [m/s]."""
+def is_inception(law: Tense, cavity: Cavity, gap: float, speed: float) -> bool:
+    """Whether a full film cavitates at a gap [m] and a speed [m/s]."""
     return cavity.phase is Phase.FULL and law.tension(gap, speed) >= law.strength
 
 
-def born(law: DiscFilm, gap: float, speed: float) -> Cavity:
-    """Cavity that opens at once where the liquid tears: from its strength to its cavity."""
+def inception(law: DiscFilm, gap: float, speed: float) -> Cavity:
+    """Cavity that opens at once where the liquid cavitates: from its strength to its cavity."""
     rim, _ = law.rim(gap, 0.0)
     fraction = receding_edge(law.tension(gap, speed) / law.drop)
-    torn = (piece_at(fraction * rim, gap),)
-    return Cavity(Phase.RECEDING, 0.0, fraction, torn)
+    return Cavity(Phase.RECEDING, 0.0, fraction, (piece_at(fraction * rim, gap),))
 
 
 def beyond_event(
@@ -90,7 +89,7 @@ def beyond_event(
     if last.growth < 0.0 and solved.voids[2] <= left:
         size = cavity.void + abs(solved.voids[2]) + left
         return min((left - cavity.void) / size, 0.0), (left - solved.voids[2]) / size
-    if gap - edge_of(cavity.torn, gap, solved.voids[2]).torn_gap <= _SHALLOW * gap:
+    if gap - edge_of(cavity.history, gap, solved.voids[2]).rupture_gap <= _SHALLOW * gap:
         return -1.0, -1.0
     return -1.0, -last.returns / (abs(last.growth) + abs(last.returns) + 1e-300) - _RECEDES
 
@@ -130,7 +129,7 @@ def _nothing(law: DiscFilm, cavity: Cavity, gap: float) -> float:
     rim, _ = law.rim(gap, cavity.void)
     film = math.pi * rim * gap
     # In a cavity that never was deep round-off decides where the edge is.
-    return (_NOTHING if cavity.largest < _SHALLOW * film else _HEALED) * film
+    return (_NOTHING if cavity.largest < _SHALLOW * film else _REFORMED) * film
 
 
 def _edge_rates(cavity: Cavity, solved: CavityStages) -> tuple[float, float]:
@@ -141,7 +140,7 @@ def _edge_rates(cavity: Cavity, solved: CavityStages) -> tuple[float, float]:
 
 def _squares(cavity: Cavity, solved: CavityStages) -> tuple[float, ...]:
     """Square of the edge [m2] where the memory ends, and at the stages."""
-    return (outermost(cavity.torn), *(spot.edge_square for spot in solved.spots))
+    return (outermost(cavity.history), *(spot.edge_square for spot in solved.spots))
 
 
 def after_step(
@@ -149,43 +148,45 @@ def after_step(
 ) -> Cavity:
     """Cavity at the end of a step, from the gap [m] at its start and those at its stages."""
     void, spot = solved.voids[2], solved.spots[2]
-    torn = cavity.torn
+    history = cavity.history
     if cavity.phase is Phase.RECEDING:
         squares = _squares(cavity, solved)
-        torn = grown(torn, piece_along(torn_to(torn), squares, (begin_gap, *gaps)))
+        history = grown(history, piece_along(liquid_within(history), squares, (begin_gap, *gaps)))
     largest = max(cavity.largest, void)
-    return cavity._replace(void=void, fraction=spot.fraction, torn=torn, largest=largest)
+    return cavity._replace(void=void, fraction=spot.fraction, history=history, largest=largest)
 
 
 def after_event(law: DiscFilm, cavity: Cavity, gap: float, speed: float) -> Cavity:
     """Cavity after the event at the end of a step, at a gap [m] and a speed [m/s]."""
     if cavity.phase is Phase.FULL:
-        return born(law, gap, speed)
+        return inception(law, gap, speed)
     if cavity.phase is Phase.RECEDING:
-        void = void_within(cavity.torn, gap)
+        void = void_within(cavity.history, gap)
         return cavity._replace(phase=Phase.RETURNING, void=void)
     if cavity.void <= 2.0 * _nothing(law, cavity, gap):
         return FULL
-    torn = cut(cavity.torn, gap, cavity.void)
-    return cavity._replace(phase=Phase.RECEDING, torn=torn)
+    history = cut(cavity.history, gap, cavity.void)
+    return cavity._replace(phase=Phase.RECEDING, history=history)
 
 
 def after_jump(law: DiscFilm, cavity: Cavity, gap: float, speed: float) -> Cavity:
     """Cavity at a gap [m] after the speed has jumped to another one [m/s].
 
-    The full film tears, or the edge jumps to where the liquid then recedes from it, at one gap; if
-    that is within the edge, liquid returns from where it is.
+    The full film cavitates, or the edge jumps to where the liquid then recedes from it, at one gap;
+    if that is within the edge, liquid returns from where it is.
     """
     if cavity.phase is Phase.FULL:
-        return born(law, gap, speed) if is_torn_by(law, cavity, gap, speed) else cavity
+        return inception(law, gap, speed) if is_inception(law, cavity, gap, speed) else cavity
     recedes = cavity.phase is Phase.RECEDING
     rim, _ = law.rim(gap, cavity.void)
     fraction = receding_edge(law.tension(gap, speed, cavity.void) / law.drop)
-    here = outermost(cavity.torn) if recedes else edge_of(cavity.torn, gap, cavity.void).square
+    here = (
+        outermost(cavity.history) if recedes else edge_of(cavity.history, gap, cavity.void).square
+    )
     if fraction * rim > here * (1.0 + _SAME):
-        torn = cavity.torn if recedes else cut(cavity.torn, gap, cavity.void)
-        jump = (here, fraction * rim - here, 0.0, 0.0, gap, 0.0, 0.0, 0.0, torn_to(torn))
-        return Cavity(Phase.RECEDING, cavity.void, fraction, grown(torn, jump), cavity.largest)
+        history = cavity.history if recedes else cut(cavity.history, gap, cavity.void)
+        jump = (here, fraction * rim - here, 0.0, 0.0, gap, 0.0, 0.0, 0.0, liquid_within(history))
+        return Cavity(Phase.RECEDING, cavity.void, fraction, grown(history, jump), cavity.largest)
     if recedes and fraction * rim < here * (1.0 - _SAME):
         return after_event(law, cavity, gap, speed)
     return cavity

@@ -43,7 +43,7 @@ class Cavitation(Protocol):
 
     @property
     def strength(self) -> float:
-        """Tension at which the whole liquid cavitates [Pa], as a drop below ambient pressure."""
+        """Tension at which the full film cavitates [Pa], as a drop below ambient pressure."""
 
     def tension(self, gap: float, speed: float, void: float = 0.0) -> float:
         """Highest tension in the full film [Pa] at a gap [m] and a speed [m/s]."""
@@ -92,7 +92,7 @@ class CavityLaw(DiscFilm):
 
     def inception(self, gap: float, speed: float) -> Cavity:
         """See `Cavitation.inception`."""
-        return events.born(self, gap, speed)
+        return events.inception(self, gap, speed)
 
     def held_force(self, cavity: Cavity, begin: Place) -> Callable[[float, float], CavityForce]:
         """See `Cavitation.held_force`: with an edge and a rim that stay."""

@@ -94,7 +94,7 @@ def rest_number(
     Examples
     --------
     >>> round(rest_number(1e-4, 10.0, 5e-3, 1e6, 0.1, 1e-7), 3)
-    1.041
+    0.147
     """
     approach = hertz_approach(force, radius, modulus)
     square = radius * approach

@@ -80,7 +80,7 @@ CAVITY = (
     Column("cavity_radius", "m", "radius of the cavity", "#00798c"),
     Column("void_volume", "m3", "void in the films", "#00798c", ":"),
 )
-"""Curves of a film that tears and remembers it."""
+"""Curves of a film that cavitates and remembers it."""
 
 
 class FilmView(Protocol):
@@ -314,7 +314,7 @@ class FilmLimit(SeparationEffect):
         """Do the work that depends on neither gap nor speed."""
 
     def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> Cavitation | None:
-        """Film that tears, for a limit with a memory; it then has no `Limiter`."""
+        """Film that cavitates, for a limit with a memory; it then has no `Limiter`."""
         return None
 
     def part(self, result: RunView) -> LimitPart:

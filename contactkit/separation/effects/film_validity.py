@@ -1,8 +1,8 @@
 """Numbers of validity of a viscous film: compression, soft faces, weight.
 
 The pressures are those of Reynolds' equation, below ambient while the gap opens and above while
-it closes. Where the liquid tears, no more than its strength is taken, and only the opening: what
-a torn film does as it closes depends on its cavity.
+it closes. Where the liquid cavitates, no more than its strength is taken, and only the opening:
+what a cavitated film does as it closes depends on its cavity.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class _Load(NamedTuple):
     radius: float
     pressure: float
     deflection: float
-    is_torn: bool
+    is_cavitated: bool
 
 
 def film_numbers(
@@ -61,7 +61,7 @@ def film_numbers(
     path : sequence of (float, float)
         Gaps and speeds while the film spans the gap.
     strength : float
-        Tension at which the liquid tears [Pa], below ambient pressure; inf if it never does.
+        Tension at which the liquid cavitates [Pa], below ambient pressure; inf if it never does.
     """
     loads = list(_loads(prepared, film, path, strength))
     return (
@@ -95,10 +95,10 @@ def _loads(
             deflection = _deflection_under_sphere(rate, gap, film.sphere_radius, radius, height)
         if not math.isfinite(pressure):
             continue
-        is_torn = speed > 0.0 and pressure > strength
-        if is_torn:  # a cavity may reach close to the rim
+        is_cavitated = speed > 0.0 and pressure > strength
+        if is_cavitated:  # a cavity may reach close to the rim
             pressure, deflection = strength, min(deflection, 2.0 * strength * spread)
-        yield _Load(gap, abs(speed), height, spread, pressure, deflection, is_torn)
+        yield _Load(gap, abs(speed), height, spread, pressure, deflection, is_cavitated)
 
 
 def _between_flats(rate: float, gap: float, radius: float) -> float:
@@ -154,7 +154,7 @@ def _soft_faces(
             (
                 numbers.soft_face_number(viscosity, one.radius, e, one.gap, one.gap / one.speed)
                 for one, e in pairs
-                if one.speed > 0.0 and not one.is_torn
+                if one.speed > 0.0 and not one.is_cavitated
             ),
             default=0.0,
         )
@@ -168,14 +168,14 @@ def _soft_faces(
             if interface.stacks
             else _RIGID,
             source="half-space under the pressure of the film, 4 eta h' r^3/(E* h^4), at most "
-            "2 p r/(E* h) where the liquid tears at p",
+            "2 p r/(E* h) where the liquid cavitates at p",
         ),
         ValidityNumber(
             name="soft-face number",
             value=soft,
             high=1.0,
             detail="above 1 the faces follow the film instead of the bodies; where the liquid "
-            "does not tear"
+            "does not cavitate"
             if interface.stacks
             else _RIGID,
             source="A = 3.1 eta r^3/(E* h^3 dt) in the time dt = h/h'",

@@ -364,9 +364,9 @@ def _sphere_law(film: FilmShape, viscosity: float, kinks: tuple[float, ...]) -> 
 
 @frozen(kw_only=True)
 class TensionLimit(FilmLimit):
-    """The liquid tears where its tension exceeds its strength, and a cavity opens.
+    """The liquid cavitates where its tension exceeds its strength, and a cavity opens.
 
-    A liquid has two numbers: the tension at which it tears while it is whole, and the
+    A liquid has two numbers: the tension at which it cavitates while it is whole, and the
     pressure of the cavity it leaves. The second is a hole filled with vapour or air, whatever the
     first was.
 
@@ -378,17 +378,17 @@ class TensionLimit(FilmLimit):
         milliseconds.
     cavity_pressure : float, optional
         Absolute pressure in the cavity [Pa], for ``cavity="mass-conserving"``. None: that of
-        vapour, nearly 0, or that at which the liquid tears where this is above. A liquid that
+        vapour, nearly 0, or that at which the liquid cavitates where this is above. A liquid that
         goes on to bear its strength at the edge of the cavity has `ambient_pressure` less
         `strength`, which may be below 0.
     ambient_pressure : float
         Pressure around the film [Pa].
     cavity : {"mass-conserving", "truncated", "reynolds"}
         ``"mass-conserving"`` (Jakobsson, Floberg and Olsson), between flats: the cavity has an
-        edge, and what was torn is remembered until liquid has come back to it. The others
-        remember nothing, and have one pressure, at which the liquid also tears: ``"truncated"``,
+        edge, and the film remembers its ruptures until liquid has come back to it. The others
+        remember nothing, and have one pressure, that of inception too: ``"truncated"``,
         the pressure profile cut off (Gumbel); ``"reynolds"``, between flats, a cavity whose edge
-        has no pressure slope (Swift-Stieber), right while an opening film tears further.
+        has no pressure slope (Swift-Stieber), right while the cavity of an opening film grows.
 
     Notes
     -----
@@ -399,7 +399,7 @@ class TensionLimit(FilmLimit):
 
     name: ClassVar[str] = "tension-limit"
     limit: ClassVar[LimitKind] = LimitKind.TENSION
-    summary: ClassVar[str] = "the liquid tears at a tension and leaves a cavity"
+    summary: ClassVar[str] = "the liquid cavitates at a tension and leaves a cavity"
     takes_pressure: ClassVar[bool] = True
 
     strength: float | Literal["vapour"] = field(default="vapour", metadata=si("Pa"))
@@ -425,8 +425,8 @@ class TensionLimit(FilmLimit):
             raise DescriptionError(where, pressure, "not be given", unit="Pa", hint=hint)
         lowest, ambient = self.ambient_pressure - self.tension, self.ambient_pressure
         if not lowest - 1e-12 * (abs(lowest) + ambient) <= pressure < ambient:
-            expected = f"lie between {lowest:g}, at which the liquid tears, and {ambient:g}"
-            hint = "it is absolute; the liquid tears at ambient_pressure less strength"
+            expected = f"lie between {lowest:g}, at which the liquid cavitates, and {ambient:g}"
+            hint = "it is absolute; the liquid cavitates at ambient_pressure less strength"
             raise DescriptionError(where, pressure, expected, unit="Pa", hint=hint)
 
     @classmethod
@@ -436,7 +436,7 @@ class TensionLimit(FilmLimit):
 
     @property
     def tension(self) -> float:
-        """Tension at which the whole liquid tears [Pa], as a drop below ambient pressure."""
+        """Tension at which the full film cavitates [Pa], as a drop below ambient pressure."""
         return self.ambient_pressure if self.strength == "vapour" else float(self.strength)
 
     @property
@@ -472,8 +472,9 @@ class TensionLimit(FilmLimit):
         """See `SeparationEffect.notes`."""
         if self.cavity != "mass-conserving":
             return ()
-        tears, drop = self.tension / 1e5, self.cavity_drop / 1e5
-        return (f"the liquid tears {tears:g} bar below ambient, a cavity is {drop:g} bar below it",)
+        strength, drop = self.tension / 1e5, self.cavity_drop / 1e5
+        begins = f"the liquid cavitates {strength:g} bar below ambient"
+        return (f"{begins}, a cavity is {drop:g} bar below it",)
 
     def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> Cavitation | None:
         """See `FilmLimit.cavity_law`."""
@@ -674,7 +675,7 @@ def _grid_error(prepared: PreparedScene[SeparationScene]) -> tuple[ValidityNumbe
 
 
 def _strength(scene: SeparationScene) -> float:
-    """Tension at which the liquid of a scene tears [Pa]; inf if it never does."""
+    """Tension at which the liquid of a scene cavitates [Pa]; inf if it never does."""
     limit = scene.effect(TensionLimit)
     return limit.tension if limit is not None else math.inf
 

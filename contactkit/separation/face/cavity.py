@@ -19,7 +19,7 @@ from attrs import field, frozen
 from ...lubrication.reynolds.film import GridFilm, GridFilmState
 from ...lubrication.reynolds.solve import unchecked_step
 from ...numerics.radau_tableau import NODES
-from ..cavity.events import is_torn_by
+from ..cavity.events import is_inception
 from ..cavity.law import Place
 from ..cavity.stages import CavityForce, ShownCavity
 from ..cavity.state import FULL, Cavity, Phase
@@ -84,7 +84,7 @@ class FaceCavity:
     viscosity : float
         Viscosity of the liquid [Pa.s].
     strength : float
-        Tension at which the whole liquid cavitates [Pa], as a drop below ambient pressure.
+        Tension at which the full film cavitates [Pa], as a drop below ambient pressure.
     drop : float
         Ambient pressure less that in the cavity [Pa]; not above `strength`.
     film_rtol : float
@@ -204,7 +204,7 @@ class FaceCavity:
 
     def after_jump(self, cavity: Cavity, gap: float, speed: float) -> Cavity:
         """See `Cavitation.after_jump`."""
-        return self.inception(gap, speed) if is_torn_by(self, cavity, gap, speed) else cavity
+        return self.inception(gap, speed) if is_inception(self, cavity, gap, speed) else cavity
 
     def shown(self, cavity: Cavity, gap: float, speed: float) -> ShownCavity:
         """See `Cavitation.shown`: the radius is that of a disc of the area of the cavity."""
@@ -219,7 +219,7 @@ class FaceCavity:
             gap=height,
             pressure=np.zeros(face.shape),
             liquid_fraction=np.where(face.loaded, np.minimum(liquid / height, 1.0), 1.0),
-            is_torn=face.loaded,
+            beside_cavity=face.loaded,
         )
 
     def _voids(self, liquid: Map, gap: float) -> HeldVoids:

@@ -38,7 +38,7 @@ _FOOT = 1e-6  # sum of the forces over the pull to come, at the foot of a ramp
 _NO_FORCE = 1e-290  # sum of the forces [N] below which none acts
 _AT_REST = 1e-30  # fraction of the gap over which the film stops a mass at rest
 _EVENT = 1e-13  # relative distance of a gap from an event that is met
-_TORN_COST = 20  # of a step of a torn film, over that of a whole one
+_CAVITY_COST = 20  # of a step of a cavitated film, over that of a full one
 # A film of 1e-14 s has transients of 1e-28 s, and a first step may be the time limit of a run: at
 # time 0 nothing but the range of a float bounds a step.
 _NO_TIME = 1e-280
@@ -71,7 +71,7 @@ def advance(plan: Plan, state: MotionState, pull: PullLaw, dt: float) -> MotionS
     if not (math.isfinite(dt) and dt >= 0.0):
         raise DescriptionError("advance(dt)", dt, "be zero or positive, and finite", unit="s")
     end = state.time + dt
-    nothing = 1e-13 * max(abs(end), dt)
+    nothing = 1e-13 * max(abs(end), dt)  # round-off of a sum of some hundred steps
     cost = 0
     while cost <= plan.accuracy.max_steps:
         if end - state.time <= nothing:
@@ -94,9 +94,9 @@ def advance(plan: Plan, state: MotionState, pull: PullLaw, dt: float) -> MotionS
 
 
 def step_cost(before: MotionState, after: MotionState) -> int:
-    """Cost of an internal step, in steps of a film that is whole."""
+    """Cost of an internal step, in steps of a film that is full."""
     is_whole = before.cavity.phase is Phase.FULL is after.cavity.phase
-    return (1 + after.n_rejected - before.n_rejected) * (1 if is_whole else _TORN_COST)
+    return (1 + after.n_rejected - before.n_rejected) * (1 if is_whole else _CAVITY_COST)
 
 
 def internal_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionState:
@@ -105,15 +105,15 @@ def internal_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> 
 
 
 def _with_times(before: MotionState, state: MotionState) -> MotionState:
-    """State with the time at which its film tore in a step, or was full again."""
+    """State with the time at which its film cavitated in a step, or was full again."""
     was, now = before.cavity.phase is Phase.FULL, state.cavity.phase is Phase.FULL
     if was is now:
         return state
     if was:
-        return state._replace(tear_time=state.time, n_tears=state.n_tears + 1)
-    if state.broken:
+        return state._replace(inception_time=state.time, n_inceptions=state.n_inceptions + 1)
+    if state.broken:  # its cavity went with the film
         return state
-    return state._replace(heal_time=state.time, n_heals=state.n_heals + 1)
+    return state._replace(reformation_time=state.time, n_reformations=state.n_reformations + 1)
 
 
 def _one_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionState:
@@ -125,9 +125,10 @@ def _one_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> Moti
     if state.speed < 0.0 and state.gap <= rest_gap * (1.0 + SAME):
         return state._replace(in_contact=True, gap=rest_gap, speed=0.0)
     film = acting_film(plan, state)
-    torn = cut_before_step(film, state.cavity, (state.gap, state.speed))
-    if torn is not None:
-        return state._replace(cavity=torn, step=0.0)
+    cavity = cut_before_step(film, state.cavity, (state.gap, state.speed))
+    if cavity is not None:
+        # What a full film allowed says nothing of steps with a cavity: `step` is found anew.
+        return state._replace(cavity=cavity, step=0.0)
     problem = _problem(plan, film, state, pull)
     if problem.size <= _NO_FORCE and _is_at_rest(problem):
         return state._replace(speed=0.0)
@@ -154,7 +155,7 @@ def _rest(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionSt
     return state._replace(
         time=end,
         in_contact=not leaves,
-        cavity=FULL,  # nothing was torn at a smaller gap
+        cavity=FULL,  # nothing ruptured at a smaller gap
         step=0.0,
         impulses=_added(state.impulses, grown),
     )
@@ -168,9 +169,9 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
     """Pose the step from a state, with a film or, where nothing is left of it, without one."""
     loading, mass = plan.scene.imposed_force, _mass(plan)
     gap, speed, rtol = state.gap, state.speed, plan.accuracy.time_rtol
-    torn = cavity_film(film, state.cavity, (gap, speed))
+    cavity = cavity_film(film, state.cavity, (gap, speed))
     forces = film.forces if film is not None else _no_forces
-    forces = forces if torn is None else torn.forces
+    forces = forces if cavity is None else cavity.forces
     first = forces(gap, speed)
     spring = loading.stiffness * abs(gap - loading.initial_gap)
     size = abs(pull(state.time)) + abs(first.static) + spring + 1e-300
@@ -187,12 +188,12 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
         exponent=film.exponent(gap, reference) if film is not None else 0.0,
         begin=Point(state.time, gap, speed),
         first=first,
-        rtol=rtol if torn is None else torn.law.time_rtol(rtol),
+        rtol=rtol if cavity is None else cavity.law.time_rtol(rtol),
         size=size,
         delivered=state.applied_impulse + mass * abs(speed),
         # Where no force acts yet, a film still has a scale: differences of speed count.
         scale=max(size / damping, 1e-15 * crossing) if damping > 0.0 else crossing,
-        remembered=torn.remembered if torn is not None else None,
+        remembered=cavity.remembered if cavity is not None else None,
         taken=sum(
             abs(state.impulses.get(column.impulse.name, 0.0)) for column in plan.film.moving_columns
         ),
@@ -249,6 +250,7 @@ def _stepped(
         length = _CONTROL.shorter(length, error)
         if length < max(1e-15 * abs(state.time), _NO_TIME) or rejected > _MOST_REJECTED:
             raise _no_step(state, problem.rtol)
+    # A step that a span cut short shows no error: it must not make the next one short as well.
     is_cut = not rejected and length < state.step
     following = _CONTROL.following(length, error, state.step if is_cut else 0.0)
     event = next_event(plan, film, state, taken.stages[2].gap)
@@ -260,7 +262,7 @@ def _stepped(
         turn = cut_at_event(problem, law, cavity, taken, length)
         if turn is not None:
             (taken, length), event = turn, None
-        if length == 0.0:
+        if length == 0.0:  # the phase changes where the step starts, and no time passes
             return state._replace(cavity=law.after_event(cavity, state.gap, state.speed))
         cavity = after(law, cavity, taken, problem.begin.gap)
         if turn is not None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from attrs import field, frozen
 
 from ...numerics.events import EventStep
-from ..cavity.events import first_event, is_torn_by
+from ..cavity.events import first_event, is_inception
 from ..cavity.law import Cavitation
 from ..cavity.stages import CavityForce
 from ..cavity.state import Cavity, Phase
@@ -77,8 +77,8 @@ def cavity_film(film: Film | None, cavity: Cavity, begin: _ONE) -> CavityFilm | 
 
 
 def cut_before_step(film: Film | None, cavity: Cavity, place: _ONE) -> Cavity | None:
-    """Cavity of a film that tears where it is; None if it does not."""
-    if film is None or film.cavity is None or not is_torn_by(film.cavity, cavity, *place):
+    """Cavity of a film that cavitates where it is; None if it does not."""
+    if film is None or film.cavity is None or not is_inception(film.cavity, cavity, *place):
         return None
     return film.cavity.after_event(cavity, *place)
 

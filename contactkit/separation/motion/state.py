@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from attrs import field, frozen
 
 from ...units import si
-from ..cavity.events import is_torn_by
+from ..cavity.events import is_inception
 from ..cavity.state import FULL, Cavity, Phase, restored_cavity
 from ..effects.base import FilmStatus, LimitKind
 from ..plan import Film, Plan
@@ -59,12 +59,12 @@ class MotionState(NamedTuple):
     break_time: float = -1.0
     release_time: float = -1.0
     release_speed: float = 0.0
-    tear_time: float = -1.0  # the film tore last
-    heal_time: float = -1.0  # a torn film was full again last
+    inception_time: float = -1.0  # the film cavitated last
+    reformation_time: float = -1.0  # a cavitated film was full again last
     n_breaks: int = 0
     n_releases: int = 0
-    n_tears: int = 0
-    n_heals: int = 0
+    n_inceptions: int = 0
+    n_reformations: int = 0
     peak_force: float = 0.0
     peak_time: float = -1.0
     step: float = 0.0  # length of the next internal step
@@ -108,9 +108,9 @@ def start(plan: Plan) -> MotionState:
     gap, speed = loading.initial_gap, 0.0 if in_contact else loading.initial_speed
     begun = MotionState(0.0, gap, speed, in_contact=in_contact, impulses=plan.film.impulses())
     law = plan.film.cavity
-    if law is None or not is_torn_by(law, FULL, gap, speed):
+    if law is None or not is_inception(law, FULL, gap, speed):
         return begun
-    return begun._replace(cavity=law.inception(gap, speed), tear_time=0.0, n_tears=1)
+    return begun._replace(cavity=law.inception(gap, speed), inception_time=0.0, n_inceptions=1)
 
 
 def acting_film(plan: Plan, state: MotionState) -> Film | None:

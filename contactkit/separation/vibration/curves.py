@@ -13,12 +13,12 @@ from attrs import field, frozen
 from ...numerics.lines import SHARE, needed, with_middles
 from .. import prescribed
 from ..bridge_end import errors_of_curves, followed
+from ..cavity_points import CavityPoint
 from ..effects.base import LIMIT, FilmStatus
 from ..plan import Plan
-from ..torn_path import TornPoint
+from .cavity import CavityCycles
 from .cycles import Cycle, forces_at, mean_pulls
 from .path import VibrationPath
-from .torn import TornCycles
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -51,15 +51,15 @@ class CycleCurves:
         The cycle, and its impulses.
     begun : mapping of str to float
         Impulse [N.s] of each force up to its start, by the name of its column.
-    torn : TornCycles or None
-        Film that tears, where it remembers it.
+    cavity : CavityCycles or None
+        Film that cavitates, where it remembers it.
     """
 
     plan: Plan
     path: VibrationPath
     cycle: Cycle
     begun: Mapping[str, float]
-    torn: TornCycles | None
+    cavity: CavityCycles | None
     _known: dict[float, list[float]] = field(factory=dict, init=False, repr=False)
 
     def table(self, times: Floats) -> Floats:
@@ -70,8 +70,8 @@ class CycleCurves:
         """
         names = _names(self.plan)
         moments = times.tolist()
-        films = self.torn.at(moments) if self.torn is not None else []
-        steady = self.torn.steady_at(moments) if self.torn is not None else []
+        films = self.cavity.at(moments) if self.cavity is not None else []
+        steady = self.cavity.steady_at(moments) if self.cavity is not None else []
         for i, time in enumerate(moments):
             if time not in self._known:
                 film = films[i] if films else None
@@ -95,8 +95,8 @@ class CycleCurves:
             return limits
 
         times = self.cycle.times
-        if self.torn is not None:
-            times = np.unique([*times, *self.torn.events(times[1:].tolist())])
+        if self.cavity is not None:
+            times = np.unique([*times, *self.cavity.events(times[1:].tolist())])
         times = with_middles(times, self.table, rtol, lambda values: SHARE * allowed(values))
         table = self.table(times)
         rest = (1.0 - SHARE) * allowed(table)
@@ -112,7 +112,7 @@ class CycleCurves:
         return np.asarray(found + np.interp(times, edges, missing))
 
     def _row(
-        self, names: Sequence[str], time: float, film: TornPoint | None, calm: TornPoint | None
+        self, names: Sequence[str], time: float, film: CavityPoint | None, calm: CavityPoint | None
     ) -> list[float]:
         """What the curves show at a time, and what lines follow beside them."""
         plan, path = self.plan, self.path
@@ -120,7 +120,7 @@ class CycleCurves:
         found = plan.film.at(gap, speed, film.force if film is not None else None)
         known = dict.fromkeys(names, 0.0) | found.named | found.newtonian
         known |= {"pull": sum(found.named.values()), LIMIT.name: float(found.limit)}
-        known |= prescribed.torn_row(plan, film) if film is not None else {}
+        known |= prescribed.cavity_row(plan, film) if film is not None else {}
         is_full = gap <= plan.film.full_gap
         known |= {
             "gap": gap,
@@ -131,7 +131,7 @@ class CycleCurves:
         }
         return [*(known[name] for name in names), *followed(plan, gap)]
 
-    def _steady_pull(self, time: float, calm: TornPoint | None) -> float:
+    def _steady_pull(self, time: float, calm: CavityPoint | None) -> float:
         """Pull [N] at a time without the vibration; 0 where the film would have broken."""
         gap = self.path.mean(time)
         if gap > self.plan.film.end:
@@ -162,7 +162,7 @@ class CycleLines:
             times[-1] = min(times[-1], math.nextafter(later[0], -math.inf))
         first = self.parts[0]
         cycles = [part.cycle for part in self.parts]
-        means = mean_pulls(self.plan, first.path, cycles, first.torn)
+        means = mean_pulls(self.plan, first.path, cycles, first.cavity)
         whole = np.concatenate([table for _, table in found])
         columns = {"time": prescribed.frozen(np.concatenate([times for times, _ in found]))}
         for name, values in zip(_names(self.plan), whole.T, strict=False):

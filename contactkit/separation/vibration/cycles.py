@@ -10,12 +10,12 @@ from scipy.interpolate import CubicSpline
 
 from ...numerics.quadrature import gauss_legendre
 from ...numerics.roots import first_true
+from ..cavity_points import CavityPoint
 from ..effects.base import LimitKind
 from ..plan import Plan
 from ..prescribed import limited_name
-from ..torn_path import TornPoint
+from .cavity import CavityCycles
 from .path import NODES, VibrationPath, panels
-from .torn import TornCycles
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -41,10 +41,10 @@ class Cycle(NamedTuple):
 
 
 def forces_at(
-    plan: Plan, gap: float, speed: float, torn: TornPoint | None = None
+    plan: Plan, gap: float, speed: float, cavity: CavityPoint | None = None
 ) -> dict[str, float]:
     """Each force [N] at a gap and a speed by the name of its column, and the pull."""
-    found = plan.film.at(gap, speed, torn.force if torn is not None else None).named
+    found = plan.film.at(gap, speed, cavity.force if cavity is not None else None).named
     return found | {"pull": sum(found.values())}
 
 
@@ -71,7 +71,7 @@ def _onsets(plan: Plan, path: VibrationPath, edges: list[float]) -> list[float]:
 
 
 def cycle_over(
-    plan: Plan, path: VibrationPath, start: float, end: float, torn: TornCycles | None
+    plan: Plan, path: VibrationPath, start: float, end: float, cavity: CavityCycles | None
 ) -> Cycle:
     """Impulses over a cycle, by Gauss quadrature in the graded phase."""
     edges, times, weights = panels(path, start, end, plan.film.kinks)
@@ -83,8 +83,8 @@ def cycle_over(
     for name in rows[0]:
         force = np.array([row[name] for row in rows]).reshape(times.shape)
         running[name] = np.concatenate([[0.0], np.cumsum((weights * force).sum(axis=1))])
-    if torn is not None:
-        viscous, name = torn.running(edges), limited_name(plan)
+    if cavity is not None:
+        viscous, name = cavity.running(edges), limited_name(plan)
         running["pull"] += viscous - running[name]
         running[name] = viscous
     return Cycle(edges, running, (min(pulls), max(pulls)))
@@ -116,7 +116,7 @@ def sums(path: VibrationPath, cycles: list[Cycle]) -> tuple[dict[str, Floats], d
 
 
 def mean_pulls(
-    plan: Plan, path: VibrationPath, cycles: list[Cycle], torn: TornCycles | None
+    plan: Plan, path: VibrationPath, cycles: list[Cycle], cavity: CavityCycles | None
 ) -> list[float]:
     """Pull [N], mean of each cycle; of a part at the end, mean of the last whole period."""
     period = 1.0 / path.vibration.frequency
@@ -125,12 +125,14 @@ def mean_pulls(
         start, end = float(cycle.times[0]), float(cycle.times[-1])
         if end - start < period * (1.0 - 1e-6) and end > period:
             start = end - period
-            cycle = cycle_over(plan, path, start, end, torn)
+            cycle = cycle_over(plan, path, start, end, cavity)
         means.append(cycle.total("pull") / (end - start))
     return means
 
 
-def steady_impulse(plan: Plan, path: VibrationPath, end: float, torn: TornCycles | None) -> float:
+def steady_impulse(
+    plan: Plan, path: VibrationPath, end: float, cavity: CavityCycles | None
+) -> float:
     """Impulse [N.s] of the pull without the vibration over the same time."""
     last = min(end, (plan.film.end - path.begin) / path.rise)
     marks = [path.begin, *plan.film.kinks, path.mean(last)]
@@ -140,6 +142,6 @@ def steady_impulse(plan: Plan, path: VibrationPath, end: float, torn: TornCycles
         for a, b in pairwise(edges.tolist()):
             for node, weight in zip(*gauss_legendre(NODES), strict=True):
                 found = forces_at(plan, a + node * (b - a), path.rise)
-                pull = found["pull"] - (found[limited_name(plan)] if torn is not None else 0.0)
+                pull = found["pull"] - (found[limited_name(plan)] if cavity is not None else 0.0)
                 total += weight * (b - a) * pull / path.rise
-    return total + (torn.steady_impulse if torn is not None else 0.0)
+    return total + (cavity.steady_impulse if cavity is not None else 0.0)

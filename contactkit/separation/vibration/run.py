@@ -23,14 +23,14 @@ from ..effects.force_law import law_impulse
 from ..plan import Plan
 from ..results import SeparationResult, extremes_of, pulls_of_cycles, with_late_curves
 from ..validity import check
+from .cavity import CavityCycles
 from .curves import CycleCurves, CycleLines, curve_names
 from .cycles import cycle_over, steady_impulse, sums
 from .path import NODES, PANELS, VibrationPath, panels
-from .torn import TornCycles
 
 __all__ = ["vibrating"]
 
-_MOST_TORN = 2000  # cycles of a film that tears: some minutes
+_MOST_CAVITATING = 2000  # cycles of a film that cavitates: some minutes
 
 
 def vibrating(
@@ -54,23 +54,23 @@ def vibrating(
         )
     end = min(end, breaks)
     spans = _drawn(plan, path, end)
-    torn = _torn(plan, path, spans)
-    cycles = [cycle_over(plan, path, *span, torn) for span in spans]
+    cavity = _cavity(plan, path, spans)
+    cycles = [cycle_over(plan, path, *span, cavity) for span in spans]
     starts, totals = sums(path, cycles)
     parts = []
     for i, cycle in enumerate(cycles):
         begun_at = {name: float(up_to[i]) for name, up_to in starts.items()}
-        parts.append(CycleCurves(plan, path, cycle, begun_at, torn))
+        parts.append(CycleCurves(plan, path, cycle, begun_at, cavity))
     lines = CycleLines(plan, parts)
     along = lines.at_edges()
     impulses = {plan.columns[name].impulse.name: total for name, total in totals.items()}
-    impulses["steady_pull_impulse"] = steady_impulse(plan, path, end, torn)
+    impulses["steady_pull_impulse"] = steady_impulse(plan, path, end, cavity)
     for kind, law in film.laws.items():
         if kind.newtonian is not None:
             newtonian = law_impulse(law, path.gap(0.0), path.gap(end))
             impulses[kind.newtonian.impulse.name] = newtonian
     pulls = along["pull"]
-    if torn is None:  # the nodes are of a film that is whole
+    if cavity is None:  # the nodes are of a film that is full
         pulls = np.concatenate([pulls, *(cycle.pulls for cycle in cycles)])
     extremes = extremes_of(plan, along)
     if extremes:
@@ -115,10 +115,10 @@ def _drawn(plan: Plan, path: VibrationPath, end: float) -> list[tuple[float, flo
     whole = math.floor(end * frequency * (1.0 + 1e-12))
     places = np.arange(whole)
     if plan.film.cavity is not None:  # each cycle begins with what the last one left
-        if whole > _MOST_TORN:
+        if whole > _MOST_CAVITATING:
             raise InfeasibleError(
-                f"{whole} cycles are too many for a film that remembers where it was torn: at most "
-                f'{_MOST_TORN}; open faster, or take TensionLimit(cavity="truncated")'
+                f"{whole} cycles are too many for a film that remembers its cavity: at most "
+                f'{_MOST_CAVITATING}; open faster, or take TensionLimit(cavity="truncated")'
             )
     elif whole > most:
         means = np.geomspace(path.begin, path.mean((whole - 1) / frequency), most)
@@ -130,8 +130,10 @@ def _drawn(plan: Plan, path: VibrationPath, end: float) -> list[tuple[float, flo
     return spans
 
 
-def _torn(plan: Plan, path: VibrationPath, spans: list[tuple[float, float]]) -> TornCycles | None:
-    """Film that tears, at the edges of the panels; None if it has no memory."""
+def _cavity(
+    plan: Plan, path: VibrationPath, spans: list[tuple[float, float]]
+) -> CavityCycles | None:
+    """Film that cavitates, at the edges of the panels; None if it has no memory."""
     film, law = plan.film, plan.film.cavity
     if law is None:
         return None
@@ -145,4 +147,4 @@ def _torn(plan: Plan, path: VibrationPath, spans: list[tuple[float, float]]) -> 
         return path.mean(time), path.rise
 
     rtol = plan.accuracy.time_rtol
-    return TornCycles(film, law, vibrating_place, steady_place, times, rtol)
+    return CavityCycles(film, law, vibrating_place, steady_place, times, rtol)

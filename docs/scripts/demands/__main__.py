@@ -1,7 +1,7 @@
 """Measure, and write the pages: ``python docs/scripts/demands [PAGE ...] [--draw]``.
 
 Without names all pages, some minutes; ``--draw`` makes pages and pictures from the committed data
-without measuring. `make demands` is the same.
+without measuring. `make pages PAGES=demands` is the same.
 """
 
 from __future__ import annotations

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
-from .accuracy_studies import PRESETS, STUDIES, peers, presets_of
-from .page import conditions, machine, number, picture, table
+from contactkit.benchmarks.separation_studies import PRESETS
+from contactkit.benchmarks.table import STUDIES
+from contactkit.work_precision import Point
+
+from .page import conditions, load, machine, number, picture, table
+from .presets import presets_of
 
 __all__ = ["ANALYSES", "NAME", "draw", "measure", "page"]
 
@@ -37,7 +42,24 @@ def measure() -> dict[str, Any]:
     return {
         "measured": machine(),
         "presets": presets_of(),
-        "studies": {name: study.points() for name, study in STUDIES.items()},
+        "studies": {name: points_of(name) for name in STUDIES},
+    }
+
+
+def points_of(name: str) -> list[dict[str, Any]]:
+    """Measure a study of the table; points as data, with seconds where these are compared."""
+    study = STUDIES[name]
+    return [_as_data(point, study.is_timed) for point in study.points()]
+
+
+def _as_data(point: Point, is_timed: bool) -> dict[str, Any]:
+    return {
+        "method": point.method,
+        "setting": point.label,
+        "error": point.error if math.isfinite(point.error) else None,
+        "seconds": point.seconds if is_timed and math.isfinite(point.seconds) else None,
+        "counts": dict(point.counts),
+        "is_model": point.is_model,
     }
 
 
@@ -68,13 +90,13 @@ def page(data: Mapping[str, Any]) -> str:
             ("function", "its numbers are", "error kept by"),
             ((f"`{name}`", what, f"`{test}`") for name, (what, test) in ANALYSES.items()),
         ),
-        *_peers(peers()),
+        *_peers(load("peers")),
         "## How it was made",
-        "`make demands` measures everything but other programs, which `make bench` does "
-        "(`docs/demands/peers.json`); `python docs/scripts/demands accuracy-and-cost --draw` makes "
-        "the page from the data, `docs/demands/accuracy-and-cost.json`. `contactkit cost SCENE` "
-        "does the same for a scene of yours. [More on accuracy](../accuracy.md) explains the "
-        "solvers and their errors.",
+        "`make pages PAGES=demands` measures everything but other programs, which `make bench` "
+        "does (`docs/demands/peers.json`); `python docs/scripts/demands accuracy-and-cost --draw` "
+        "makes the page from the data, `docs/demands/accuracy-and-cost.json`. `contactkit cost "
+        "NAME` measures a study of this page (`contactkit/benchmarks/table.py`) or a scene of "
+        "yours. [More on accuracy](../accuracy.md) explains the solvers and their errors.",
         conditions(data["measured"]),
     ]
     return "\n\n".join(parts) + "\n"
@@ -112,7 +134,7 @@ def _study(name: str, points: list[dict[str, Any]]) -> str:
         rows.append((method, p["setting"], error, _seconds(p["seconds"]), counts))
     heads = ("method", "setting", "error", "CPU seconds", "work")
     used = ", ".join(f"`{one}`" for one in study.solvers)
-    text = f"For {used}; error against {study.judge}."
+    text = f"For {used}; error against {study.judge}. `contactkit cost {name}` measures it."
     return "\n\n".join((f"### {study.title}", text, table(heads, rows)))
 
 
@@ -199,7 +221,7 @@ def draw(data: Mapping[str, Any]) -> None:
         points = [one[label] for label in PRESETS]
         xs, ys = [p["seconds"] for p in points], [max(p["error"], 1e-16) for p in points]
         axes[1, 0].plot(xs, ys, color=colour, marker=mark, ms=5, label=name)
-    for row in peers()["features"]["rows"]:
+    for row in load("peers")["features"]["rows"]:
         if row["peer_error"] is None:
             continue
         ends = [row["seconds"], row["peer_seconds"]], [row["error"], row["peer_error"]]

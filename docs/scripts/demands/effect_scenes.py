@@ -9,6 +9,8 @@ from typing import Any, NamedTuple
 from attrs import evolve
 
 import contactkit as ck
+from contactkit.benchmarks.contact_studies import rough_steel as contact
+from contactkit.benchmarks.separation_studies import film_scene as disc
 
 __all__ = ["ENTRIES", "Entry"]
 
@@ -47,21 +49,8 @@ COATED = ck.Stack(
 WATER = ck.Meniscus(
     liquid=ck.load_liquid("water"), contact_angle_lower=60.0 * DEG, contact_angle_upper=60.0 * DEG
 )
-ROUGH = ck.SelfAffineRoughness(rms=2e-9, hurst=0.8, rolloff=1e-6, cutoff=62.5e-9, seed=1)
 MAP = ck.Accuracy(grid=256)
 ROUGH_MAP = "steel under a rough flat, 2 um wide, 256 x 256 pixels, 200 MPa"
-
-
-def contact(*effects: Any, solid: Any = STEEL, pressure: float = 2e8) -> ck.ContactScene:
-    """A rough rigid flat on a solid."""
-    return ck.ContactScene(
-        interface=ck.Interface(
-            lower=ck.Body(solid=solid), upper=ck.Body(surface=ROUGH), meniscus=WATER
-        ),
-        window=ck.Window(width=2e-6),
-        loading=ck.Pressing(pressure=pressure),
-        effects=effects,
-    )
 
 
 def ball(*effects: Any) -> ck.ContactScene:
@@ -174,17 +163,6 @@ DISC = "a disc of 3.175 mm pulled by 40 N off 0.16 mm3 of engine oil, from 5 to 
 TIP = "a sphere of 1 um drawn off a flat at 1 um/s, with 1e-22 m3 of water"
 
 
-def disc(*effects: Any) -> ck.SeparationScene:
-    """A mass pulled off an oil film by a constant force."""
-    face = ck.Flat(radius=3.175e-3)
-    film = ck.Meniscus(liquid=OIL, volume=0.16e-9)
-    return ck.SeparationScene(
-        interface=ck.Interface(lower=face, upper=face, meniscus=film),
-        loading=ck.ImposedForce(initial_gap=5e-6, final_gap=25e-6, force=40.0, mass=0.02),
-        effects=effects,
-    )
-
-
 def tip(*effects: Any, gap: float = 0.4e-9) -> ck.SeparationScene:
     """A sphere drawn off a flat at a given speed, from a gap [m]."""
     return ck.SeparationScene(
@@ -233,7 +211,7 @@ SEPARATIONS: Mapping[type, Entry] = {
         ck.ViscousForce,
     ),
     ck.TensionLimit: _entry(
-        r"p \ge p_{ambient} - \sigma_t \text{ before it tears}, \qquad p \ge p_c "
+        r"p \ge p_{ambient} - \sigma_t \text{ before it cavitates}, \qquad p \ge p_c "
         r"\text{ in the cavity after it}",
         DISC + ", strength of 10 bar",
         disc(VISCOUS, TENSION),

@@ -70,7 +70,7 @@ def page(data: Mapping[str, Any]) -> str:
         "*Convolutions* are applications of the elastic operator, *right-hand sides* evaluations "
         "of the equation of motion. *Memory* is the peak of what Python and numpy allocate in plan "
         "and run (`tracemalloc`). Seconds of plan and run. Where a saving is negative the run is "
-        "longer without the effect: a film that tears or breaks early needs fewer steps.",
+        "longer without the effect: a film that cavitates or breaks early needs fewer steps.",
     ]
     for title, registry in KINDS.items():
         rows = [_row(kind, data["effects"][kind.name]) for kind in registry]
@@ -79,7 +79,8 @@ def page(data: Mapping[str, Any]) -> str:
         parts += [_section(kind, data["effects"][kind.name]) for kind in registry]
     parts += [
         "## How it was made",
-        "`make demands` runs all scenes, which are in `docs/scripts/demands/effect_scenes.py`; "
+        "`make pages PAGES=demands` runs all scenes, which are in "
+        "`docs/scripts/demands/effect_scenes.py`; "
         "`python docs/scripts/demands effects --draw` makes the page from the data, "
         "`docs/demands/effects.json`. A registered effect without an entry fails the tests.",
         conditions(data["measured"]),

@@ -5,25 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from . import hard_bridges, hard_contacts, hard_films, hard_layers
-from .hard_case import HardCase
+from contactkit.benchmarks.hard.case import HardCase
+from contactkit.benchmarks.table import HARD_CASES
+
 from .page import conditions, machine, number, picture, slug, table
 
-__all__ = ["CASES", "NAME", "draw", "measure", "page"]
+__all__ = ["NAME", "draw", "measure", "page"]
 
 NAME = "hard-cases"
-CASES: Mapping[str, HardCase] = {
-    case.key: case
-    for room in (hard_layers, hard_contacts, hard_films, hard_bridges)
-    for case in room.CASES
-}
 _ROOMS = {"contact": "Contact", "separation": "Separation"}
 _NO_ANSWER = 1e2  # where the picture shows a method without an answer
 
 
 def measure() -> dict[str, Any]:
     """Run every case with both methods."""
-    return {"measured": machine(), "cases": {k: c.run()._asdict() for k, c in CASES.items()}}
+    return {"measured": machine(), "cases": {k: c.run()._asdict() for k, c in HARD_CASES.items()}}
 
 
 def page(data: Mapping[str, Any]) -> str:
@@ -33,20 +29,20 @@ def page(data: Mapping[str, Any]) -> str:
         "Cases in which a plain method loses all digits, never ends, or has no answer. For each: "
         "what makes it hard, what a naive method gives, what contactkit gives, and the errors of "
         "both against a third solution. Each naive method was run; its code, as one would write it "
-        "from a textbook, is in `docs/scripts/demands/`.",
+        "from a textbook, is in `contactkit/benchmarks/hard/`; `contactkit cost NAME` runs a case.",
         "![Errors of the naive method and of contactkit for each case](hard-cases.png)",
         "Errors are relative to the answer unless the table says otherwise; 1e-16 is round-off.",
     ]
     for half, title in _ROOMS.items():
-        some = [(case, data["cases"][key]) for key, case in CASES.items() if case.half == half]
+        some = [(case, data["cases"][key]) for key, case in HARD_CASES.items() if case.half == half]
         rows = [(f"[{c.title}](#{slug(c.title)})", _naive(one), _ours(one)) for c, one in some]
         parts += [f"## {title}", table(("case", "error, naive", "error, contactkit"), rows)]
         parts += [_section(case, one) for case, one in some]
     parts += [
         "## How it was made",
-        "`make demands` runs all cases; `python docs/scripts/demands hard-cases --draw` makes the "
-        "page from the data, `docs/demands/hard-cases.json`, without running them. "
-        "`tests/demand_pages` runs them again and holds both errors to bounds that are "
+        "`make pages PAGES=demands` runs all cases; `python docs/scripts/demands hard-cases "
+        "--draw` makes the page from the data, `docs/demands/hard-cases.json`, without running "
+        "them. `tests/demand_pages` runs them again and holds both errors to bounds that are "
         "good on any machine.",
         conditions(data["measured"]),
     ]
@@ -72,7 +68,8 @@ def _section(case: HardCase, found: Mapping[str, Any]) -> str:
                 ("contactkit", case.ours, found["ours_gives"], _ours(found)),
             ),
         ),
-        f"Error against {case.judge}. Kept by `{case.tested}`.",
+        f"Error against {case.judge}. Kept by `{case.tested}`; `contactkit cost {case.name}` "
+        "computes both.",
     ]
     return "\n\n".join(lines)
 
@@ -82,7 +79,7 @@ def draw(data: Mapping[str, Any]) -> None:
     from contactkit.plot import style as plot
 
     made, ax = plot.figure(size=(8.6, 6.2))
-    rows = list(CASES.items())[::-1]
+    rows = list(HARD_CASES.items())[::-1]
     labels = []
     for y, (key, case) in enumerate(rows):
         one = data["cases"][key]

@@ -23,7 +23,7 @@ PAGE = Page(
     claim="Future work of sections 2.4 and 3.5: stick-slip, vibration induced by friction, with "
     "springs and dampers.",
     verdict="Menisci add to the load: they raise the force at which the slider breaks away, and "
-    "its slips grow by as much, and by far more if they tear while it moves. The film damps the "
+    "its slips grow by as much, and by far more if they rupture while it moves. The film damps the "
     "slip: it shortens the overshoot, and above a speed, or above a damping, the slider does not "
     "come to rest again and slides on steadily, under kinetic friction and drag. Beyond "
     "contactkit: springs and dampers at each asperity, friction that ages at rest or depends on "
@@ -31,7 +31,7 @@ PAGE = Page(
     choices="A slider of 10 mg under 20 mN, friction 0.3 at rest and 0.2 in motion, spring of 50 "
     "N/m drawn at 1 mm/s. 100 menisci of a lubricant (30 mN/m, 50 mPa.s) of 5 um at 20 nm, 60/60 "
     "degrees: their exact force, and the drag of their films. At rest and in motion alike, or "
-    "torn in motion.",
+    "ruptured in motion.",
     grid="5 slips; 40 speeds",
 )
 BLOCK = ck.SpringSlider(
@@ -76,7 +76,7 @@ def _sliders(force: float, drag: float) -> dict[str, ck.SpringSlider]:
         "dry": BLOCK,
         "menisci": attrs.evolve(BLOCK, meniscus_force=force),
         "menisci, drag": attrs.evolve(BLOCK, meniscus_force=force, damping=drag),
-        "torn in motion, drag": attrs.evolve(
+        "ruptured in motion, drag": attrs.evolve(
             BLOCK, meniscus_force=force, moving_meniscus_force=0.0, damping=drag
         ),
     }
@@ -163,7 +163,7 @@ def check(data: Data) -> list[Check]:
     """Effect of menisci and drag on the slips, and the end of stick-slip."""
     force, drag = (float(v) for v in data["film"])
     slips = [data[f"slip_{i}"] for i in range(4)]
-    dry, held, damped, torn = (float(s[1] - s[2]) for s in slips)
+    dry, held, damped, ruptured = (float(s[1] - s[2]) for s in slips)
     ratio, fall = data["damping"]
     last = float(data["last"])
     time, length = data["other"]
@@ -175,10 +175,10 @@ def check(data: Data) -> list[Check]:
             f"{1e3 * force:.2f} mN",
         ),
         Check(
-            "slips grow as load and menisci do, and in films by far more if menisci tear in motion",
-            bool(abs(held / dry - 1.0 - force / BLOCK.load) < 1e-9 and torn > 1.5 * damped),
+            "slips grow as load and menisci do, in films by far more if menisci rupture in motion",
+            bool(abs(held / dry - 1.0 - force / BLOCK.load) < 1e-9 and ruptured > 1.5 * damped),
             f"fall of the force {1e3 * dry:.2f} and {1e3 * held:.2f} mN; with drag "
-            f"{1e3 * damped:.2f} and, torn, {1e3 * torn:.2f} mN",
+            f"{1e3 * damped:.2f} and, ruptured, {1e3 * ruptured:.2f} mN",
         ),
         Check(
             "the drag of the films shortens the slip",

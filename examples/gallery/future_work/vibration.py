@@ -22,14 +22,14 @@ PAGE = Page(
     claim="Section 3.4 names oscillation of high frequency as a means against meniscus and "
     "viscous forces; section 3.5 leaves the effect of vibration to future work.",
     verdict="A film that stays whole resists closing as it resists opening: at every amplitude "
-    "vibration leaves its impulse as it is. Only a film that tears on opening is rectified: it "
+    "vibration leaves its impulse as it is. Only a film that cavitates on opening is rectified: it "
     "still resists closing, so that its mean force falls, and pushes the bodies apart once the "
     "amplitude is large. The meniscus force, convex in the gap, rises on the mean by a quarter of "
     "its second derivative times the amplitude squared; but the meniscus breaks earlier, when the "
     "gap first exceeds its limit. Beyond contactkit: inertia of the liquid, waves in the bodies, "
     "vibration along the bodies, and friction.",
     choices="Oil of 0.1 Pa.s and 30 mN/m, flat discs of 1 mm, opened from 5 to 10 um at 10 um/s; "
-    "60 Hz. Torn film: bears 0.1 MPa, truncated pressure. Meniscus: 1 pl of the oil, 60/60 "
+    "60 Hz. Cavitated film: bears 0.1 MPa, truncated pressure. Meniscus: 1 pl of the oil, 60/60 "
     "degrees, under a sphere of 1 mm, from 1 to 2 um and to its end at 2 um/s.",
     grid="8 amplitudes; every cycle by Gauss quadrature",
 )
@@ -46,8 +46,8 @@ def compute(draft: bool = False) -> dict[str, Any]:
     amplitudes = np.linspace(0.0, 4.4 * um, n)
     tension = ck.TensionLimit(strength=STRENGTH, cavity="truncated")
     whole = [_opened(a, ck.ViscousForce()) for a in amplitudes.tolist()]
-    torn = [_opened(a, ck.ViscousForce(), tension) for a in amplitudes.tolist()]
-    shown = torn[n // 2]
+    cavitated = [_opened(a, ck.ViscousForce(), tension) for a in amplitudes.tolist()]
+    shown = cavitated[n // 2]
     part = shown.time < 4.0 / FREQUENCY
     small = np.linspace(0.0, 0.9 * um, n)
     bridges = [_bridge(a) for a in small.tolist()]
@@ -55,7 +55,7 @@ def compute(draft: bool = False) -> dict[str, Any]:
     return {
         "amplitudes": amplitudes,
         "whole": np.array([run.of(ck.ViscousForce).impulse for run in whole]),
-        "torn": np.array([run.of(ck.ViscousForce).impulse for run in torn]),
+        "cavitated": np.array([run.of(ck.ViscousForce).impulse for run in cavitated]),
         "time": shown.time[part],
         "pull": shown["viscous_force"][part],
         "newtonian": shown["newtonian_force"][part],
@@ -137,12 +137,16 @@ def draw(data: Data) -> plot.Figure:
     cycles, impulse, mean, end = panels.flat
     time = 1e3 * data["time"]
     cycles.plot(time, data["newtonian"], **plot.series(1, marker=""), label="whole film")
-    cycles.plot(time, data["pull"], **plot.series(0, marker="", lw=1.2), label="film that tears")
+    cycles.plot(
+        time, data["pull"], **plot.series(0, marker="", lw=1.2), label="film that cavitates"
+    )
     cycles.set(xlabel="time [ms]", ylabel="viscous force [N]")
     cycles.legend(fontsize=8)
     amplitudes = data["amplitudes"] / um
     duration = (END - START) / SPEED
-    for i, (name, label) in enumerate((("torn", "film that tears"), ("whole", "whole film"))):
+    for i, (name, label) in enumerate(
+        (("cavitated", "film that cavitates"), ("whole", "whole film"))
+    ):
         impulse.plot(amplitudes, data[name] / duration, **plot.series(i), label=label)
     impulse.axhline(0.0, color="0.5", lw=0.8)
     impulse.set(xlabel="amplitude [um]", ylabel="mean viscous force [N]")
@@ -174,7 +178,7 @@ def draw(data: Data) -> plot.Figure:
 
 def check(data: Data) -> list[Check]:
     """Impulse of a whole film, rectified force, mean force and end of the meniscus."""
-    whole, torn, small = data["whole"], data["torn"], data["small"]
+    whole, cavitated, small = data["whole"], data["cavitated"], data["small"]
     off = float(np.abs(whole / whole[0] - 1.0).max())
     rise = data["rise"]
     law = float(data["convex"]) * small**2
@@ -187,9 +191,9 @@ def check(data: Data) -> list[Check]:
             f"changes by at most {off:.1e}",
         ),
         Check(
-            "that of a film that tears falls with every amplitude, and turns into a push",
-            bool(np.all(np.diff(torn) < 0.0) and torn[-1] < 0.0 < torn[0]),
-            ", ".join(f"{2.0 * v:.3g}" for v in torn) + " N on the mean",
+            "that of a film that cavitates falls with every amplitude, and turns into a push",
+            bool(np.all(np.diff(cavitated) < 0.0) and cavitated[-1] < 0.0 < cavitated[0]),
+            ", ".join(f"{2.0 * v:.3g}" for v in cavitated) + " N on the mean",
         ),
         Check(
             "no pull exceeds strength times area; pushes do, by far",
@@ -219,9 +223,9 @@ def check(data: Data) -> list[Check]:
 
 def table(data: Data) -> Table:
     """Mean viscous forces over the amplitude."""
-    rows = zip(data["amplitudes"] / um, 2.0 * data["whole"], 2.0 * data["torn"], strict=True)
+    rows = zip(data["amplitudes"] / um, 2.0 * data["whole"], 2.0 * data["cavitated"], strict=True)
     return Table(
-        ("amplitude [um]", "whole film [N]", "film that tears [N]"),
+        ("amplitude [um]", "whole film [N]", "film that cavitates [N]"),
         [tuple(map(float, row)) for row in rows],
     )
 

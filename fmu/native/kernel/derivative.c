@@ -62,7 +62,7 @@ static int one(ck_model *model, int unknown, const ck_variable *known, double *s
     if (known->causality == CK_INPUT && kind->slope(model, unknown, id, slope)) return CK_OK;
     if (unknown == CK_U && id >= CK_T_DELAY && id <= CK_T_BOOST && id != CK_U_BOOST)
         return refuse(model, unknown, id, "the voltage jumps in time, which has no slope");
-    if ((id == CK_H_BREAK || id == CK_DP_CAV || id == CK_DP_TEAR || id == CK_DP_HOLD ||
+    if ((id == CK_H_BREAK || id == CK_DP_CAV || id == CK_DP_INCEPTION || id == CK_DP_HOLD ||
          id == CK_TAU_LIM || id == CK_B_SAT) &&
         model->state.values[id] == 0.0)
         return refuse(model, unknown, id, "0 stands for none there, which has no slope");

@@ -23,7 +23,7 @@ typedef struct {
     int any, limited, is_sphere, reynolds;
     double viscosity, surface_tension, tension, strength, sphere_radius, menisci;
     double end, release;
-    const ck_cavity_law *law; /* how the film tears, where that is remembered, or NULL */
+    const ck_cavity_law *law; /* how the film cavitates, where that is remembered, or NULL */
 } ck_acting;
 
 /* Forces at a gap and a speed, with slopes by gap and by speed. */

@@ -11,7 +11,9 @@
 
 #define SAME 1e-9  /* gaps closer than this, relatively, are one: a host rounds its gaps, too */
 #define DOUBT 0.2  /* coupling error beyond which the flag is raised: the answer is no estimate then */
-#define VOID 1e-9  /* error of the void in a step of time, over the volume of the film */
+/* Error of the void in a step of time, over the volume of the film. Impulses of discs that swing are
+   1e-4 off with 1e-8, some 1e-5 with this and below; each quarter takes 1.4 times the steps. */
+#define VOID 1e-9
 #define MOST_STOPS 1000 /* kinks and limits met in one step of the host; a film has some ten */
 #define MOST_STEPS 5000 /* of a cavity, in one step of the host: 20 to 40 us each where values are hostile */
 
@@ -65,10 +67,10 @@ static void forces_of(const ck_model *model, const ck_acting *acting, double gap
     *radius = 0.0;
     ck_forces_at(acting, gap, speed, found);
     if (!law) return;
-    if (ck_is_torn_by(law, &memory->cavity, at)) {
+    if (ck_is_inception(law, &memory->cavity, at)) {
         fraction = ck_receding_edge(ck_tension_at(law, gap, speed, whole.hollow) / law->drop);
         before = gap;
-    } else if (memory->cavity.phase == CK_WHOLE) {
+    } else if (memory->cavity.phase == CK_FULL) {
         return;
     }
     memset(&spot, 0, sizeof spot);
@@ -180,13 +182,13 @@ static int free_of(const ck_acting *acting) {
 }
 
 /* Go along a stretch with a film that remembers its cavity: its viscous impulse, and the time of the
-   stretch at which it tore or was whole again last. nan if there is no way, or it is too long: `left`
-   are the steps that it may take. */
+   stretch at which it cavitated or was full again last. nan if there is no way, or it is too long:
+   `left` are the steps that it may take. */
 static double with_memory(ck_model *model, const ck_acting *acting, double from, double to, double length,
                           int *left, double *changed) {
     ck_cavity *cavity = &model->state.memory.cavity;
     ck_place at = {from, (to - from) / length};
-    int was = cavity->phase == CK_WHOLE && !ck_is_torn_by(acting->law, cavity, at), full;
+    int was = cavity->phase == CK_FULL && !ck_is_inception(acting->law, cavity, at), full;
     int found = CK_PATH_STEP;
     double total = 0.0, part, gap = from;
     ck_path path;
@@ -198,14 +200,14 @@ static double with_memory(ck_model *model, const ck_acting *acting, double from,
             part = full ? along.viscous : part + along.free;
         }
         total += part;
-        if (was != (cavity->phase == CK_WHOLE)) was = !was, *changed = path.time;
+        if (was != (cavity->phase == CK_FULL)) was = !was, *changed = path.time;
         gap = after;
     }
     return found == CK_PATH_END ? total : NAN;
 }
 
-/* Integrate over the motion of the step, from kink to kink; `changed` is when the film tore last, or
-   was whole again. */
+/* Integrate over the motion of the step, from kink to kink; `changed` is when the film cavitated
+   last, or was full again. */
 static ck_impulse go(ck_model *model, double time, double step, double target, int *left,
                      double *changed) {
     ck_memory *memory = &model->state.memory;
@@ -282,9 +284,9 @@ static void tell(ck_model *model) {
 static void tell_cavity(ck_model *model, int was, double time) {
     int now = model->state.memory.cavity.phase;
     char message[80];
-    if ((was == CK_WHOLE) == (now == CK_WHOLE) || model->state.memory.broken) return;
+    if ((was == CK_FULL) == (now == CK_FULL) || model->state.memory.broken) return;
     snprintf(message, sizeof message, "%s at t = %.9g s",
-             now == CK_WHOLE ? "film whole again" : "film torn", time);
+             now == CK_FULL ? "film reformed" : "film cavitated", time);
     model->say(model->host, CK_OK, "logEvents", message);
 }
 

@@ -86,13 +86,14 @@ static void tell(ck_model *model, const ck_motion *before) {
         snprintf(message, sizeof message, "film broke at t = %.9g s", clock_at(model, now->break_time));
         model->say(model->host, CK_OK, "logEvents", message);
     }
-    if (now->tears > before->tears) {
-        snprintf(message, sizeof message, "film torn at t = %.9g s", clock_at(model, now->tear_time));
+    if (now->inceptions > before->inceptions) {
+        snprintf(message, sizeof message, "film cavitated at t = %.9g s",
+                 clock_at(model, now->inception_time));
         model->say(model->host, CK_OK, "logEvents", message);
     }
-    if (now->heals > before->heals) {
-        snprintf(message, sizeof message, "film whole again at t = %.9g s",
-                 clock_at(model, now->heal_time));
+    if (now->reformations > before->reformations) {
+        snprintf(message, sizeof message, "film reformed at t = %.9g s",
+                 clock_at(model, now->reformation_time));
         model->say(model->host, CK_OK, "logEvents", message);
     }
 }

@@ -147,16 +147,16 @@ const char *ck_wrong(ck_model *model, int id, const char *must, int other, const
     return model->wrong;
 }
 
-/* The tensions at which the films tear, and that of their cavities; what is wrong with them. */
-static const char *tear(ck_model *model, double strength, double hold) {
+/* The tensions at which the films cavitate, and that of their cavities; what is wrong with them. */
+static const char *tensions(ck_model *model, double strength, double hold) {
     const double *v = model->state.values;
     ck_scene *scene = &model->scene;
     int i;
-    if (hold > strength) return ck_wrong(model, CK_DP_HOLD, "not exceed", CK_DP_TEAR, "Pa");
+    if (hold > strength) return ck_wrong(model, CK_DP_HOLD, "not exceed", CK_DP_INCEPTION, "Pa");
     if (strength > 0.0 && v[CK_DP_CAV] > 0.0)
-        return ck_wrong(model, CK_DP_TEAR, "be 0 beside", CK_DP_CAV, "Pa");
+        return ck_wrong(model, CK_DP_INCEPTION, "be 0 beside", CK_DP_CAV, "Pa");
     if (strength > 0.0 && v[CK_TAU_LIM] > 0.0)
-        return ck_wrong(model, CK_DP_TEAR, "be 0 beside", CK_TAU_LIM, "Pa");
+        return ck_wrong(model, CK_DP_INCEPTION, "be 0 beside", CK_TAU_LIM, "Pa");
     for (i = 0; i < scene->tables->n_films; i++) {
         const ck_film *film = &scene->tables->films[i];
         ck_cavity_law *law = &scene->laws[i];
@@ -182,7 +182,7 @@ const char *ck_common_parameters(ck_model *model) {
     scene->initial_gap = v[CK_H0];
     scene->viscosity = v[CK_ETA], scene->surface_tension = v[CK_GAMMA];
     scene->tension = v[CK_DP_CAV], scene->strength = v[CK_TAU_LIM];
-    problem = tear(model, v[CK_DP_TEAR], v[CK_DP_HOLD]);
+    problem = tensions(model, v[CK_DP_INCEPTION], v[CK_DP_HOLD]);
     if (problem) return problem;
     for (i = 0; i < scene->tables->n_films; i++) {
         double breaks = v[CK_H_BREAK] > 0.0 ? v[CK_H_BREAK] : scene->tables->films[i].breaks;

@@ -31,12 +31,12 @@ void ck_start(const ck_scene *scene, ck_motion *state) {
     state->speed = state->in_contact ? 0.0 : scene->initial_speed;
     state->armed = 1;
     state->break_time = state->release_time = state->peak_time = -1.0;
-    state->tear_time = state->heal_time = -1.0;
+    state->inception_time = state->reformation_time = -1.0;
     ck_act(scene, 0, 0, 0, &acting);
-    if (!acting.any || !acting.law || !ck_is_torn_by(acting.law, &state->cavity, place_of(state)))
+    if (!acting.any || !acting.law || !ck_is_inception(acting.law, &state->cavity, place_of(state)))
         return;
     ck_cavity_event(acting.law, &state->cavity, place_of(state));
-    state->tear_time = 0.0, state->tears = 1;
+    state->inception_time = 0.0, state->inceptions = 1;
 }
 
 /* What acts: all, or what a broken film and parted solids leave. */
@@ -68,7 +68,7 @@ void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acti
 
 /* Whether a film acts that has a cavity now. */
 static int is_hollow(const ck_acting *acting, const ck_motion *state) {
-    return acting->any && acting->law && state->cavity.phase != CK_WHOLE;
+    return acting->any && acting->law && state->cavity.phase != CK_FULL;
 }
 
 void ck_forces_of(const ck_acting *acting, const ck_motion *state, ck_forces *found, ck_spot *spot) {
@@ -98,7 +98,7 @@ static void rest_once(const ck_scene *scene, ck_motion *state, const ck_pull *pu
     double leave = end, elapsed;
     ck_act(scene, state->film, state->broken, state->detached, &acting);
     /* Nothing ruptured at a smaller gap than this, so that no void is left here. */
-    if (state->cavity.phase != CK_WHOLE) memset(&state->cavity, 0, sizeof state->cavity);
+    if (state->cavity.phase != CK_FULL) memset(&state->cavity, 0, sizeof state->cavity);
     film = ck_fixed_force(&acting, state->gap);
     if (ck_pull_at(pull, low) - holding - film > 0.0) {
         leave = low;
@@ -468,7 +468,7 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
         return CK_DONE;
     }
     ck_act(scene, state->film, state->broken, state->detached, &acting);
-    if (acting.any && acting.law && ck_is_torn_by(acting.law, &state->cavity, place_of(state))) {
+    if (acting.any && acting.law && ck_is_inception(acting.law, &state->cavity, place_of(state))) {
         ck_cavity_event(acting.law, &state->cavity, place_of(state));
         state->step = 0.0, state->known = 0;
         return CK_DONE;
@@ -490,7 +490,7 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
         if (!(length >= ck_larger(1e-15 * fabs(state->time), NO_TIME)) || rejected > MOST_REJECTED)
             return CK_NO_STEP;
     }
-    state->cost += p.cavity ? CK_TORN_COST * rejected : rejected;
+    state->cost += p.cavity ? CK_CAVITY_COST * rejected : rejected;
     following = length * ck_smaller(8.0, 0.9 / sqrt(sqrt(ck_larger(error, 1e-12))));
     if (!rejected && length < state->step) following = ck_larger(following, state->step);
     /* The step is taken first, as if there were no event, and cut afterwards: forces and error estimate
@@ -520,10 +520,10 @@ int ck_internal_step(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     if (state->in_contact) rest_once(scene, state, pull, end);
     else trouble = step_once(scene, state, pull, end);
     now = state->cavity.phase;
-    state->cost += was == CK_WHOLE && now == CK_WHOLE ? 1 : CK_TORN_COST;
-    if (was == CK_WHOLE && now != CK_WHOLE) state->tear_time = state->time, state->tears++;
-    if (was != CK_WHOLE && now == CK_WHOLE && !state->broken)
-        state->heal_time = state->time, state->heals++;
+    state->cost += was == CK_FULL && now == CK_FULL ? 1 : CK_CAVITY_COST;
+    if (was == CK_FULL && now != CK_FULL) state->inception_time = state->time, state->inceptions++;
+    if (was != CK_FULL && now == CK_FULL && !state->broken)
+        state->reformation_time = state->time, state->reformations++;
     return trouble;
 }
 

@@ -17,7 +17,7 @@ typedef struct {
     double recontact; /* gap of re-contact of detached solids */
     double mass, initial_gap, initial_speed, stiffness, release_gap, rest_gap, rtol;
     double viscosity, surface_tension, tension, strength;
-    ck_cavity_law laws[CK_MOST_FILMS]; /* of films that tear and remember it, where strength is not 0 */
+    ck_cavity_law laws[CK_MOST_FILMS]; /* of films with a cavity, where strength is not 0 */
 } ck_scene;
 
 typedef struct {
@@ -31,16 +31,16 @@ typedef struct {
     ck_forces here;        /* forces at this gap and speed, and the exponent of the viscous one */
     double exponent;
     int64_t known; /* whether the last step told them */
-    double tear_time, heal_time;
-    int tears, heals; /* of the film: into a cavity, and full again */
+    double inception_time, reformation_time;
+    int inceptions, reformations; /* how many times the film cavitated, and was full again */
     ck_cavity cavity;
 } ck_motion;
 
 enum { CK_NONE = 0, CK_RUPTURE = 1, CK_REWETTING = 2 };
 enum { CK_DONE = 0, CK_NO_STEP = 1, CK_TOO_MANY_STEPS = 2 };
-/* Cost of a step of a torn film over that of a whole one: 20 to 40 us against 1 to 2 us where values
-   are hostile. */
-enum { CK_TORN_COST = 20 };
+/* Cost of a step of a cavitated film over that of a full one: 20 to 40 us against 1 to 2 us where
+   values are hostile. */
+enum { CK_CAVITY_COST = 20 };
 
 void ck_start(const ck_scene *scene, ck_motion *state); /* at time 0 */
 void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acting *acting);

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import tempfile
+import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -19,7 +20,8 @@ from ....export.report import Report
 from ....fmu.slaves.stiction_mass import mass_values
 from ....scene.scenes import SeparationScene
 from ....separation.effects.viscous import TensionLimit
-from ....work_precision import Outcome, Setting, WorkPrecision, sweep
+from ....work_precision import Outcome, Point, Setting, WorkPrecision, sweep
+from ...library import bundled_device
 from ..scene import InjectorScene
 from .cosimulation import InjectorFmus, build_fmus
 
@@ -27,7 +29,13 @@ if TYPE_CHECKING:
     from ....fmu.master.couple import AdaptiveSteps, FixedSteps, Mass
     from ....fmu.master.steps import Scheme
 
-__all__ = ["coupling_settings", "injector_cost", "injector_settings", "injector_sweep"]
+__all__ = [
+    "coupling_settings",
+    "injector_cost",
+    "injector_settings",
+    "injector_sweep",
+    "release_study",
+]
 
 Progress = Callable[[float], None]
 
@@ -56,6 +64,24 @@ def _draw(cost_picture: Callable[[], Sequence[Path]], out: Path) -> tuple[Path, 
     from .coupling import coupling_picture
 
     return (*cost_picture(), coupling_picture(out))
+
+
+def release_study() -> list[Point]:
+    """Error of the first release of the shipped injector; CPU seconds, each setting run once."""
+    scene = bundled_device("fuel-injector")
+    assert isinstance(scene, InjectorScene)
+    film, valve, end = scene.separation(scene.temperature), scene.valve, scene.first_pulse_end
+    exact = monolithic_release(film, valve, end, 1e-11).value
+    with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
+        found = sweep(
+            injector_settings(scene, film, build_fmus(scene, Path(folder))),
+            exact,
+            quantity="release time",
+            floor=1e-10,
+            repeats=0,
+            clock=time.process_time,
+        )
+    return list(found.points)
 
 
 def injector_sweep(scene: InjectorScene, progress: Progress) -> WorkPrecision:

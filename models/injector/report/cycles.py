@@ -32,8 +32,8 @@ class Cycle(NamedTuple):
     peak_force: float
     viscous_impulse: float
     meniscus_impulse: float
-    torn_fraction: float
-    """Fraction of the time up to the release in which the film is torn."""
+    cavitated_fraction: float
+    """Fraction of the time up to the release in which the film is cavitated."""
 
 
 def cycles(run: InjectorRun, scene: InjectorScene) -> list[Cycle]:
@@ -76,7 +76,7 @@ def _release_time(run: InjectorRun, gap: float, start: float, end: float) -> flo
 
 def largest_pull(scene: InjectorScene) -> float:
     """Largest pull of magnet less spring on a spool that stays on its end cap [N]."""
-    coldest = plan(scene.separation(min(scene.study.temperatures), tears=False))
+    coldest = plan(scene.separation(min(scene.study.temperatures), cavitates=False))
     pull = simulate(coldest, scene.valve, scene.first_pulse_end, rtol=1e-6)["pull"]
     return float(pull.max())
 

@@ -38,7 +38,9 @@ _SUSTAINING = _Curve(
     {"cavity_pressure": -math.inf},
     {"color": _SUSTAINED, "ls": "--"},
 )
-_NEVER_TEARS = _Curve("oil that never tears", {"tears": False}, {"color": _NEVER, "ls": ":"})
+_NEVER_CAVITATES = _Curve(
+    "oil that never cavitates", {"cavitates": False}, {"color": _NEVER, "ls": ":"}
+)
 
 
 def delays_over_temperature(
@@ -58,7 +60,7 @@ def delays_over_temperature(
     ax.plot([], [], "o", color="k", mfc="none", label="FMU pair")
     _finish(ax, scene, dry)
     ax.set_xlabel("oil temperature [degC]")
-    bears = f", oil that tears at {limit.tension / bar:g} bar" if limit is not None else ""
+    bears = f", oil that cavitates at {limit.tension / bar:g} bar" if limit is not None else ""
     plot.title(ax, f"release delay over temperature{bears}")
     plot.legend(ax, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return plot.save(made, out / "delay-against-temperature")
@@ -66,15 +68,15 @@ def delays_over_temperature(
 
 def _curves_over_temperature(scene: InjectorScene, limit: TensionLimit | None) -> list[_Curve]:
     if limit is None:
-        return [_NEVER_TEARS]
+        return [_NEVER_CAVITATES]
     if limit.cavity != "mass-conserving":
-        return [_Curve("as in the scene", {}, {"color": _PRESSURES[0]}), _NEVER_TEARS]
+        return [_Curve("as in the scene", {}, {"color": _PRESSURES[0]}), _NEVER_CAVITATES]
     # Those that differ from an oil that sustains its strength.
     lowest = limit.ambient_pressure - limit.tension + 0.01 * limit.tension
     return [
         *(c for c in _held(scene) if c.oil["cavity_pressure"] > lowest),
         _SUSTAINING,
-        _NEVER_TEARS,
+        _NEVER_CAVITATES,
     ]
 
 
@@ -129,7 +131,7 @@ def delays_over_strength(scene: InjectorScene, limit: TensionLimit, out: Path, d
         _finish(ax, scene, dry)
         ax.axvline(whole, color="0.5", lw=0.8, ls="-.")
         ax.annotate(
-            "beyond, no pull on a\nresting spool tears",
+            "beyond, no pull on a\nresting spool cavitates",
             (whole, 0.6),
             xytext=(-4, 0),
             textcoords="offset points",

@@ -44,15 +44,15 @@ def _oil(scene: InjectorScene, run: InjectorRun) -> str:
     """Oil of a run, for a legend."""
     limit = scene.tension_limit
     if limit is None:
-        return "oil that never tears"
+        return "oil that never cavitates"
     if run.sustained:
-        return f"goes on to sustain {limit.tension / bar:g} bar once torn"
+        return f"goes on to sustain {limit.tension / bar:g} bar once cavitated"
     held = (limit.ambient_pressure - limit.cavity_drop) / bar
-    return f"tears at {limit.tension / bar:g} bar, cavity at {held:.3g} bar"
+    return f"cavitates at {limit.tension / bar:g} bar, cavity at {held:.3g} bar"
 
 
 def _hatch(ax: Any, run: InjectorRun, time: Any, **more: Any) -> None:
-    """Hatch where the film is torn, below the curves."""
+    """Hatch where the film is cavitated, below the curves."""
     acts = run.coupled["limit"] == LimitKind.TENSION
     across = ax.get_xaxis_transform()
     ax.fill_between(
@@ -113,7 +113,7 @@ def _balance(scene: InjectorScene, run: InjectorRun, out: Path) -> Path:
         speed.plot(time, run.coupled["v"], color=plot.COLORS["speed"])
         _forces(force, run, time)
         for ax in (gap, force):
-            _hatch(ax, run, time, label="film torn" if ax is force else None)
+            _hatch(ax, run, time, label="film cavitated" if ax is force else None)
         force.set(xlabel="time since energising [ms]", xlim=(-0.05 * end, end))
         gap.set_ylim(0.0, 1.15e6 * float(run.coupled["h"][shown].max()))
     for ax in axes[:, 1]:

@@ -35,15 +35,15 @@ def _held_by(run: InjectorRun, found: Sequence[Cycle], dry: float) -> str:
     text = name
     if first.meniscus_impulse:
         text += f" ({100 * max(viscous, 1.0 - viscous):.0f} % of the impulse)"
-    if first.torn_fraction > 0.0:
-        text += f", torn {100 * first.torn_fraction:.0f} % of the time"
+    if first.cavitated_fraction > 0.0:
+        text += f", cavitated {100 * first.cavitated_fraction:.0f} % of the time"
     if not math.isnan(first.delay) and first.delay < 1.1 * dry:
         text += "; hardly: mostly mass and coil"
     return text
 
 
 def _oil_text(run: InjectorRun) -> tuple[str, str]:
-    """Tension at which the oil of a run tears, and pressure of the cavity then."""
+    """Tension at which the oil of a run cavitates, and pressure of the cavity then."""
     limit = run.plan.scene.effect(TensionLimit)
     if limit is None or math.isinf(limit.tension):
         return "never", "-"
@@ -97,7 +97,7 @@ def report(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path | None) 
         f"stiction-mass, communication step {scene.study.communication_step * 1e6:g} us",
         f"a dry spool would be released {dry * 1e3:.3f} ms after energising",
         "",
-        f"{'oil':>9s}  {'tears':>7s}  {'cavity':>9s}  {'release':>9s}  {'sticks':>9s}  "
+        f"{'oil':>9s}  {'cavitates':>7s}  {'cavity':>9s}  {'release':>9s}  {'sticks':>9s}  "
         f"{'peak force':>10s}  {'impulse':>9s}  {'coupling':>8s}  {'seconds':>7s}  held by",
         f"{'':>9s}  {'at':>7s}  {'':>9s}  {'[ms]':>9s}  {'[ms]':>9s}  {'[N]':>10s}  "
         f"{'[N.s]':>9s}  {'error':>8s}  {'(wall)':>7s}",
@@ -122,9 +122,9 @@ def _row(run: InjectorRun, found: Sequence[Cycle], dry: float) -> str:
     """Line of the table for a run."""
     delay, error = found[0].delay, run_error(run, found)
     stuck = math.isnan(delay)
-    tears, cavity = _oil_text(run)
+    cavitates, cavity = _oil_text(run)
     return (
-        f"{run.label:>9s}  {tears:>7s}  {cavity:>9s}  "
+        f"{run.label:>9s}  {cavitates:>7s}  {cavity:>9s}  "
         f"{'never' if stuck else f'{delay * 1e3:.4f}':>9s}  "
         f"{'all pulse' if stuck else f'{(delay - dry) * 1e3:.4f}':>9s}  "
         f"{float(run.coupled['F_peak'][-1]):10.2f}  "
@@ -161,12 +161,12 @@ def _spread(run: InjectorRun, delays: Sequence[float], scene: InjectorScene) -> 
 
 
 def _what_decides(scene: InjectorScene, runs: Sequence[InjectorRun]) -> list[str]:
-    """Say which property of the oil decides, and what an oil that never tears would do."""
+    """Say which property of the oil decides, and what an oil that never cavitates would do."""
     limit = scene.tension_limit
     if limit is None or limit.cavity != "mass-conserving" or math.isinf(limit.tension):
         return []
     area, pull = math.pi * scene.interface.rim_radius**2, largest_pull(scene)
-    never = [delay(scene, t, tears=False) for t in scene.study.temperatures]
+    never = [delay(scene, t, cavitates=False) for t in scene.study.temperatures]
     each = ", ".join("never" if math.isnan(d) else f"{d * 1e3:.3f} ms" for d in never)
     first: dict[bool, list[float]] = {}
     for run in runs:
@@ -179,10 +179,10 @@ def _what_decides(scene: InjectorScene, runs: Sequence[InjectorRun]) -> list[str
     ]
     return [
         "",
-        f"strength decides whether the film tears: at {0.5 * area * limit.tension:.1f} N, half of "
-        f"strength times area; the pull reaches {pull:.1f} N, so an oil of up to "
-        f"{2.0 * pull / area / bar:.1f} bar tears",
-        f"an oil that never tears is released after, from cold to warm: {each}",
+        f"strength decides whether the film cavitates: at {0.5 * area * limit.tension:.1f} N, half "
+        f"of strength times area; the pull reaches {pull:.1f} N, so an oil of up to "
+        f"{2.0 * pull / area / bar:.1f} bar cavitates",
+        f"an oil that never cavitates is released after, from cold to warm: {each}",
         f"the pressure in the cavity decides how long it holds then, by {'; by '.join(held)}",
         "neither is known for this oil: both are assumptions of the scene",
     ]

@@ -7,6 +7,7 @@ largest gap along them for the rupture.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -23,6 +24,7 @@ from ....errors import InfeasibleError
 from ....export.report import Report
 from ....reference import elliptic_bridge
 from ....work_precision import Outcome, Point, Setting, WorkPrecision, sweep
+from ...library import bundled_device
 from ..closure_errors import relative_errors
 from ..scene import BridgeCase, Bridges
 
@@ -31,7 +33,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["CLOSURES", "FLOOR", "bridge_cost", "force_points", "rupture_points"]
+__all__ = ["CLOSURES", "FLOOR", "bridge_cost", "force_points", "force_study", "rupture_points"]
 
 Progress = Callable[[float], None]
 
@@ -110,7 +112,9 @@ def _clear_caches() -> None:
     bridge_limit.branch.cache_clear()
 
 
-def force_points(curves: Sequence[_Curve], progress: Progress) -> WorkPrecision:
+def force_points(
+    curves: Sequence[_Curve], progress: Progress, clock: Callable[[], float] = time.perf_counter
+) -> WorkPrecision:
     """Error of the force and seconds for each gap, by closure, bridge and number of gaps."""
     settings = []
     for curve in curves:
@@ -124,7 +128,9 @@ def force_points(curves: Sequence[_Curve], progress: Progress) -> WorkPrecision:
                 settings.append(Setting(closure, f"{name}, {n} gaps, first time", first))
             one = partial(_run_one, curve, closure)
             settings.append(Setting(closure, f"{name}, one gap", one, is_model))
-    found = sweep(settings, 1.0, quantity="force", floor=FLOOR, budget=0.3, progress=progress)
+    found = sweep(
+        settings, 1.0, quantity="force", floor=FLOOR, budget=0.3, progress=progress, clock=clock
+    )
     points = tuple(
         Point(
             p.method,
@@ -138,6 +144,14 @@ def force_points(curves: Sequence[_Curve], progress: Progress) -> WorkPrecision:
         for p in found.points
     )
     return WorkPrecision(found.quantity, found.reference, found.floor, points)
+
+
+def force_study() -> list[Point]:
+    """Error of the force of the shipped bridges, and CPU seconds for each gap."""
+    scene = bundled_device("bridges")
+    assert isinstance(scene, Bridges)
+    curves = [_curve(case, scene.gaps, scene.reach) for case in scene.bridges]
+    return list(force_points(curves, lambda done: None, time.process_time).points)
 
 
 def rupture_points(curves: Sequence[_Curve], progress: Progress) -> WorkPrecision:

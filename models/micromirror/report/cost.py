@@ -14,7 +14,8 @@ from attrs import evolve
 from ....errors import ConvergenceError, PlanError
 from ....separation.effects.meniscus import MeniscusForce
 from ....separation.plan import Plan
-from ....work_precision import Outcome, Setting, WorkPrecision, sweep
+from ....work_precision import Outcome, Point, Setting, WorkPrecision, sweep
+from ...library import bundled_device
 from ..coupling import couple
 from ..mirror import Mirror
 from ..monolithic import simulate_monolithic
@@ -22,10 +23,17 @@ from ..scene import MicromirrorScene
 from ..tip_film import tip_law
 from .cosimulation import build_tips, couple_fmus
 
-__all__ = ["mirror_sweep"]
+__all__ = ["mirror_sweep", "release_study"]
 
 _STEPS = (100e-9, 50e-9, 20e-9, 10e-9, 5e-9, 2e-9)  # [s]
 _TOLERANCES = (1e-4, 1e-6, 1e-8)  # a line of the table each
+
+
+def release_study() -> list[Point]:
+    """Error of the time at which the tips of the shipped mirror are free; CPU seconds."""
+    scene = bundled_device("micromirror")
+    assert isinstance(scene, MicromirrorScene)
+    return list(mirror_sweep(scene, lambda done: None, time.process_time).points)
 
 
 def mirror_sweep(

@@ -160,8 +160,16 @@ def test_the_tabor_parameter_of_a_sphere_is_that_of_its_radius(transition):
     assert 2.0 * (9.0 / (16.0 * math.pi)) ** (1 / 3) * found == pytest.approx(transition, rel=1e-6)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("case", CASES["maugis_dugdale"], ids=lambda case: str(case["transition"]))
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(
+            case, marks=pytest.mark.slow if case["transition"] == 0.5 else pytest.mark.exhaustive
+        )
+        for case in CASES["maugis_dugdale"]
+    ],
+    ids=lambda case: str(case["transition"]),
+)
 def test_the_sphere_on_a_fine_grid(case):
     """Pull-off within 1 %, 2 % at a Maugis parameter of 5."""
     transition = case["transition"]
@@ -252,6 +260,7 @@ def test_branches_of_an_isolated_map_do_not_depend_on_the_steps():
         assert np.abs(one.load - other.load[::2]).max() <= 1e-5 * scale
 
 
+@pytest.mark.slow
 def test_branches_of_a_periodic_map_do_not_depend_on_the_steps():
     """Five levels or nine: without the way by the middle of a step the separation is 15 % off."""
     law = ck.ExponentialAttraction(work_of_adhesion=WORK, range=0.7e-9)

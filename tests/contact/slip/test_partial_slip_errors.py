@@ -79,10 +79,8 @@ def test_an_effect_says_what_is_wrong(given, expected):
 
 def test_a_plan_refuses_what_does_not_fit():
     slip = ck.PartialSlip(coefficient=0.3, path=HALF)
-    with pytest.raises(ck.PlanError, match="without FrictionTraction, which slides everywhere"):
+    with pytest.raises(ck.PlanError, match="PartialSlip and FrictionTraction exclude each other"):
         ck.plan(scene(slip, ck.FrictionTraction(coefficient=0.3)))
-    with pytest.raises(ck.PlanError, match="without SubsurfaceStress, which does not have its"):
-        ck.plan(scene(slip, ck.SubsurfaceStress()))
     turned = (ck.TangentialStep(ratio=0.5, direction=1.0),)
     with pytest.raises(ck.PlanError, match="components=2 for path steps of another direction"):
         ck.plan(scene(ck.PartialSlip(coefficient=0.3, path=turned)))

@@ -6,6 +6,7 @@ import importlib.util
 
 import numpy as np
 import pytest
+from selection import quick
 
 from contactkit.contact.solver import contact_solver
 from contactkit.contact.solver.active_set import Outcome, improve
@@ -130,9 +131,10 @@ def test_a_hardness_that_holds_nearly_all_of_a_small_contact(contrast, thickness
     assert s.pressure.max() <= bound * (1.0 + 1e-12)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("is_resolved", [True, False])
-@pytest.mark.parametrize("bounded", [False, True])
+@pytest.mark.parametrize(
+    ("is_resolved", "bounded"),
+    quick([(False, False), (False, True), (True, False), (True, True)], long=[0]),
+)
 def test_every_film_costs_at_most_twice_the_half_space(is_resolved, bounded):
     """Contrast, thickness and load over six decades; the median to a contrast of 1000."""
     h, loads = rough(128, is_resolved), np.array([1.0, 30.0, 1000.0])

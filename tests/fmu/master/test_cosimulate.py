@@ -193,15 +193,15 @@ def test_an_fmu_of_another_model_is_refused(pair, temporary):
 def test_what_is_no_fmu_of_fmi_2_is_named(pair, tmp_path, temporary):
     text = tmp_path / "text.fmu"
     text.write_text("text")
-    third, torn = tmp_path / "third.fmu", tmp_path / "torn.fmu"
+    third, cavitated = tmp_path / "third.fmu", tmp_path / "cavitated.fmu"
     with zipfile.ZipFile(third, "w") as archive:
         archive.writestr("modelDescription.xml", FMI3)
-    rewritten(pair[0], torn, lambda xml: xml[: len(xml) // 2])
+    rewritten(pair[0], cavitated, lambda xml: xml[: len(xml) // 2])
     for path, said in (
         (tmp_path / "none.fmu", "a file that is there"),
         (text, "a zip archive"),
         (third, "one of FMI 3.0: take the FMI 2 build"),
-        (torn, "torn.fmu, modelDescription.xml'; there is"),
+        (cavitated, "cavitated.fmu, modelDescription.xml'; there is"),
     ):
         with pytest.raises(DescriptionError, match=said) as caught:
             cosimulate(path, pair[1], 1e-4, 1e-5)

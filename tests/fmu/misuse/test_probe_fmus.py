@@ -94,7 +94,7 @@ def troubles(found):
 
 @judge
 def trouble_is_refused_explained_and_gone_after_a_reset(found):
-    """One error with its cure, none of the fatal kind, no nan, and a reset that heals."""
+    """One error with its cure, none of the fatal kind, no nan, and a reset that cures."""
     found = troubles(found)
     assert len(found) > 50
     assert {name: one["fatal"] for name, one in found.items() if one["fatal"]} == {}
@@ -155,7 +155,7 @@ def states_lead_back_across_the_rupture(found):
     assert found["elsewhere"]
     assert found["after the end"]
     assert found["of another"]
-    assert 0 < found["size"] < 12_000  # half of it is where the film has torn
+    assert 0 < found["size"] < 12_000  # half of it is where the film has cavitated
 
 
 @judge

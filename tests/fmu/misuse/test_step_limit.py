@@ -25,7 +25,9 @@ from contactkit.separation.motion.advance import step_cost  # noqa: E402
 from contactkit.separation.motion.state import MotionState  # noqa: E402
 
 ONE = {"platforms": [local()], "compiler": "cc"}
-TORN = scene(effects=(*FORCES, ck.TensionLimit(strength=1e6, cavity_pressure=0.0)), final=23e-6)
+CAVITATING = scene(
+    effects=(*FORCES, ck.TensionLimit(strength=1e6, cavity_pressure=0.0)), final=23e-6
+)
 native_only = pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
 
 
@@ -58,13 +60,18 @@ def test_a_step_beyond_the_limit_is_discarded_and_a_shorter_one_taken():
     assert slave.values["h"] > SWINGING["h0"]
 
 
-def test_a_step_of_a_torn_film_costs_as_much_as_twenty():
+def test_a_step_of_a_cavitated_film_costs_as_much_as_twenty():
     whole = MotionState(0.0, 1e-6, 0.0)
-    torn = whole._replace(cavity=FULL._replace(phase=Phase.RECEDING))
+    cavitated = whole._replace(cavity=FULL._replace(phase=Phase.RECEDING))
     assert step_cost(whole, whole) == 1
     assert step_cost(whole, whole._replace(n_rejected=2)) == 3
-    assert step_cost(whole, torn) == step_cost(torn, whole) == step_cost(torn, torn) == 20
-    assert step_cost(torn, torn._replace(n_rejected=1)) == 40
+    assert (
+        step_cost(whole, cavitated)
+        == step_cost(cavitated, whole)
+        == step_cost(cavitated, cavitated)
+        == 20
+    )
+    assert step_cost(cavitated, cavitated._replace(n_rejected=1)) == 40
 
 
 def test_the_coil_counts_the_steps_of_all_its_pieces():
@@ -140,13 +147,13 @@ def test_native_steps_are_discarded_likewise(swinging):
 
 @native_only
 @pytest.mark.slow
-def test_a_torn_film_has_enough_and_costs_more(shelf, open_fmu):
-    """A pull that tears takes about 250 internal steps, which count as 5000."""
-    torn = open_fmu(shelf(build_native, TORN, **ONE))
+def test_a_cavitated_film_has_enough_and_costs_more(shelf, open_fmu):
+    """A pull that cavitates takes about 250 internal steps, which count as 5000."""
+    cavitated = open_fmu(shelf(build_native, CAVITATING, **ONE))
     for most, status in ((1000, 2), (20_000, 0), (100_000, 0)):
-        torn.reset().start(F_ext=40.0, max_steps=most, k_s=0.0)
-        assert torn.step(1e-3) == status
-    assert torn.get("t_release") > 0.0
+        cavitated.reset().start(F_ext=40.0, max_steps=most, k_s=0.0)
+        assert cavitated.step(1e-3) == status
+    assert cavitated.get("t_release") > 0.0
 
 
 @native_only

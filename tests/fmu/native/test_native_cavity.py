@@ -67,8 +67,8 @@ def test_a_disc_pulled_apart_and_pressed_back_moves_as_in_python(name, native):
     assert sorted(events(host)) == sorted(said)
 
 
-def test_bodies_that_bounce_on_asperities_tear_the_film_again_as_in_python(native):
-    """At rest no void is left: nothing tore at a smaller gap."""
+def test_bodies_that_bounce_on_asperities_cavitate_the_film_again_as_in_python(native):
+    """At rest no void is left: nothing cavitated at a smaller gap."""
     values = pulled(CASES["pull_flooded_jfo_0.1"]) | {"h0": 20e-6, "h_min": 15e-6, "h_rel": 1e-3}
     host = native(values | {"dp_hold": 1e5}).start()
     slave, said = python_mass(values | {"dp_hold": 1e5})
@@ -87,7 +87,7 @@ def test_bodies_that_bounce_on_asperities_tear_the_film_again_as_in_python(nativ
     assert sorted(events(host)) == sorted(said)
 
 
-def test_a_state_of_a_torn_film_gives_the_same_again(native):
+def test_a_state_of_a_cavitated_film_gives_the_same_again(native):
     case = CASES["pull_free_jfo_1.0"]
     host = native(pulled(case)).start()
     host.set(F_ext=case["inputs"]["force"])
@@ -107,7 +107,7 @@ def test_a_state_of_a_torn_film_gives_the_same_again(native):
 
 
 def test_a_film_moves_along_a_path_as_in_python(native):
-    """With more steps in which it tears further than pieces are kept."""
+    """With more steps in which it cavitates further than pieces are kept."""
     values = film_values()
     host = native(values, model="stiction-force").start()
     slave, said = StictionForce(instance_name="direct"), []
@@ -127,11 +127,11 @@ def test_a_film_moves_along_a_path_as_in_python(native):
         for output in ("F", "c", "J", "F_mean", "r_cav", "V_void"):
             expected = slave.values[output]
             assert host.get(output) == pytest.approx(expected, rel=1e-7, abs=1e-16), (i, output)
-    assert [text.split(" at ")[0] for text in events(host)] == ["film torn", "film whole again"]
+    assert [text.split(" at ")[0] for text in events(host)] == ["film cavitated", "film reformed"]
     assert events(host) == said
 
 
-def test_a_torn_film_at_rest_fills_as_in_python(native):
+def test_a_cavitated_film_at_rest_fills_as_in_python(native):
     values = film_values(N=3, dp_hold=4e4)
     host = native(values, model="stiction-force").start()
     slave = StictionForce(instance_name="direct")
@@ -155,10 +155,10 @@ def test_a_torn_film_at_rest_fills_as_in_python(native):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"dp_hold": 2e6}, "dp_hold must not exceed dp_tear = 1000000 Pa, got 2000000 Pa"),
-        ({"dp_cav": 1e5}, "dp_tear must be 0 beside dp_cav = 100000 Pa, got 1000000 Pa"),
-        ({"tau_lim": 1e5}, "dp_tear must be 0 beside tau_lim = 100000 Pa"),
-        ({"dp_tear": 0.0, "dp_hold": 1e5}, "dp_hold must not exceed dp_tear = 0 Pa"),
+        ({"dp_hold": 2e6}, "dp_hold must not exceed dp_inception = 1000000 Pa, got 2000000 Pa"),
+        ({"dp_cav": 1e5}, "dp_inception must be 0 beside dp_cav = 100000 Pa, got 1000000 Pa"),
+        ({"tau_lim": 1e5}, "dp_inception must be 0 beside tau_lim = 100000 Pa"),
+        ({"dp_inception": 0.0, "dp_hold": 1e5}, "dp_hold must not exceed dp_inception = 0 Pa"),
     ],
 )
 def test_tensions_that_contradict_each_other_are_refused(values, message, native):
@@ -170,8 +170,10 @@ def test_tensions_that_contradict_each_other_are_refused(values, message, native
 
 def test_a_start_that_contradicts_itself_is_refused_when_the_fmu_is_built(tmp_path):
     start = {port.name: port.start for port in PORTS}
-    with pytest.raises(DescriptionError, match="dp_hold must not exceed dp_tear"):
-        build_native(scene_of(start), tmp_path / "x.fmu", start={"dp_tear": 1e5, "dp_hold": 2e5})
+    with pytest.raises(DescriptionError, match="dp_hold must not exceed dp_inception"):
+        build_native(
+            scene_of(start), tmp_path / "x.fmu", start={"dp_inception": 1e5, "dp_hold": 2e5}
+        )
 
 
 @pytest.mark.slow

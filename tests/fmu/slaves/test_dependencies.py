@@ -53,12 +53,12 @@ def ports(slave, *causalities):
 
 
 def others(port, value):
-    """Other values of an input or a parameter."""
+    """Other values of an input or a parameter: all of a choice, near numbers, any but zero."""
     if port.enumeration is not None:
         return list(port.enumeration)
     if port.kind == "integer":
         return [value + 1]
-    return [1.01 * value, 0.99 * value] if value else [1e-9, 1e-3, 1.0]
+    return [1.01 * value] if value else [1e-9, 1e-3, 1.0]
 
 
 WET = pytest.param("wet, compliant", marks=pytest.mark.slow)

@@ -56,8 +56,8 @@ def test_the_exact_release_times_are_met(host, name):
     assert host.get("limit") == LimitKind.TENSION
     assert host.step(1e-3 * exact["t_release"]) == OK
     assert host.get("t_release") == pytest.approx(exact["t_release"], rel=1e-6)
-    torn = next(text for text in events(host) if text.startswith("film torn at t = "))
-    assert float(torn.split("=")[1].split()[0]) == pytest.approx(exact["t_on"], rel=1e-6)
+    cavitated = next(text for text in events(host) if text.startswith("film cavitated at t = "))
+    assert float(cavitated.split("=")[1].split()[0]) == pytest.approx(exact["t_on"], rel=1e-6)
 
 
 def test_steps_of_the_tool_leave_the_release_as_it_is(host):
@@ -69,7 +69,7 @@ def test_steps_of_the_tool_leave_the_release_as_it_is(host):
     assert host.get("t_release") == pytest.approx(case["values"]["t_release"], rel=1e-6)
 
 
-def test_a_state_saved_while_the_film_is_torn_gives_the_same_again(host):
+def test_a_state_saved_while_the_film_is_cavitated_gives_the_same_again(host):
     case = CASES["pull_flooded_jfo_0.1"]
     host.start(**pulled(case), k_s=2e6)
     host.set(F_ext=case["inputs"]["force"])
@@ -101,7 +101,10 @@ def test_a_film_that_is_pressed_full_again_is_logged(host):
     for _ in range(40):
         host.step(2e-5)
     assert (host.get("r_cav"), host.get("V_void")) == (0.0, 0.0)
-    assert [text.split(" at ")[0] for text in events(host)[:2]] == ["film torn", "film whole again"]
+    assert [text.split(" at ")[0] for text in events(host)[:2]] == [
+        "film cavitated",
+        "film reformed",
+    ]
 
 
 def test_a_film_that_broke_comes_back_without_a_cavity(host):
@@ -123,10 +126,14 @@ def test_a_film_that_broke_comes_back_without_a_cavity(host):
 @pytest.mark.parametrize(
     ("values", "field", "message"),
     [
-        ({"dp_hold": 1e5}, "dp_hold", "be 0 where dp_tear is 0 [Pa], got 100000.0; set dp_tear"),
-        ({"dp_tear": 1e5, "dp_hold": 2e5}, "dp_hold", "not exceed dp_tear = 100000 Pa"),
-        ({"dp_tear": 1e6, "dp_cav": 1e6}, "dp_tear", "be 0 where dp_cav is not"),
-        ({"dp_tear": 1e6, "tau_lim": 1e6}, "dp_tear", "be 0 where tau_lim is not"),
+        (
+            {"dp_hold": 1e5},
+            "dp_hold",
+            "be 0 where dp_inception is 0 [Pa], got 100000.0; set dp_inc",
+        ),
+        ({"dp_inception": 1e5, "dp_hold": 2e5}, "dp_hold", "not exceed dp_inception = 100000 Pa"),
+        ({"dp_inception": 1e6, "dp_cav": 1e6}, "dp_inception", "be 0 where dp_cav is not"),
+        ({"dp_inception": 1e6, "tau_lim": 1e6}, "dp_inception", "be 0 where tau_lim is not"),
     ],
 )
 def test_tensions_that_contradict_each_other_are_refused(values, field, message):
@@ -138,10 +145,10 @@ def test_tensions_that_contradict_each_other_are_refused(values, field, message)
 
 
 def test_a_refused_tension_is_in_the_log_and_can_be_corrected(host):
-    host.start(dp_tear=1e5, dp_hold=2e5)
+    host.start(dp_inception=1e5, dp_hold=2e5)
     assert host.step(1e-5) == DISCARD
-    assert any("dp_hold must not exceed dp_tear" in entry.message for entry in host.log)
-    host.reset().start(dp_tear=1e5, dp_hold=1e5)
+    assert any("dp_hold must not exceed dp_inception" in entry.message for entry in host.log)
+    host.reset().start(dp_inception=1e5, dp_hold=1e5)
     host.set(F_ext=40.0)
     assert host.step(1e-5) == OK
 
@@ -162,7 +169,7 @@ def test_the_tension_limit_of_a_scene_is_held_by_parameters(limit, values):
     scene = scene_of(start)
     scene = attrs.evolve(scene, effects=(*scene.effects, limit))
     found = mass_values(scene)
-    assert tuple(found[name] for name in ("dp_cav", "dp_tear", "dp_hold")) == values
+    assert tuple(found[name] for name in ("dp_cav", "dp_inception", "dp_hold")) == values
     again = scene_of({p.name: p.read(found.get(p.name, p.start)) for p in PORTS})
     assert mass_values(again) == found
 
@@ -223,22 +230,22 @@ def test_a_film_in_steps_meets_the_oscillating_disc():
         if end > values["t_turn"]:
             assert found["r_cav"] == pytest.approx(radius, rel=2e-5)
     moved(slave, 60, 0.017, begin)
-    torn, whole = said
-    assert torn.startswith("film torn at t = ")
-    assert float(whole.removeprefix("film whole again at t = ").removesuffix(" s")) == (
+    cavitated, whole = said
+    assert cavitated.startswith("film cavitated at t = ")
+    assert float(whole.removeprefix("film reformed at t = ").removesuffix(" s")) == (
         pytest.approx(values["t_nearly_full"], rel=1e-4)
     )
 
 
-def test_a_film_that_was_torn_fills_at_rest():
-    """After a fast opening by a factor of five; the cavity was torn at one gap, all at once."""
+def test_a_film_that_was_cavitated_fills_at_rest():
+    """After a fast opening by a factor of five; the film ruptured at one gap, all at once."""
     slave = prepared_film()
     slave.values["h"] = 5.0 * slave.values["h0"]
     slave.advance(0.0, 1e-6)
     edge, before = slave.values["r_cav"], slave.values["h0"]
     gap, radius = slave.values["h"], slave.values["R"]
     share = edge / radius
-    dp, eta = slave.values["dp_tear"], slave.values["eta"]
+    dp, eta = slave.values["dp_inception"], slave.values["eta"]
     volume = slave.values["V_void"]
     assert volume == pytest.approx(math.pi * edge**2 * (gap - before), rel=1e-3)
     time = 3.0 * eta * edge**2 * (gap - before) / (gap**3 * dp) * (1.0 - 2.0 * math.log(share))
@@ -250,7 +257,7 @@ def test_a_film_that_was_torn_fills_at_rest():
     assert slave.values["limit"] == LimitKind.NONE
 
 
-def test_a_state_of_a_torn_film_gives_the_same_again(force_fmu, open_fmu):
+def test_a_state_of_a_cavitated_film_gives_the_same_again(force_fmu, open_fmu):
     host = open_fmu(force_fmu)
     host.start(**film_values())
 
@@ -288,7 +295,7 @@ def test_inputs_between_steps_leave_the_edge_where_it_is():
         assert slave.values["F"] - force == pytest.approx(slope * move, rel=1e-4)
 
 
-def test_a_full_film_set_to_a_speed_that_tears_it_shows_its_cavity():
+def test_a_full_film_set_to_a_speed_that_cavitates_it_shows_its_cavity():
     case = CASES["disc_expanding_3"]
     given, exact = case["inputs"], case["values"]
     slave = StictionForce(instance_name="direct")
@@ -298,7 +305,7 @@ def test_a_full_film_set_to_a_speed_that_tears_it_shows_its_cavity():
         h=given["gap"],
         eta=given["viscosity"],
         meniscus_law=MeniscusLaw.NONE,
-        dp_tear=given["tension"],
+        dp_inception=given["tension"],
         v=given["opening_speed"],
     )
     slave.prepare()

@@ -255,7 +255,7 @@ def hertz_scene():
     }
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_a_pair_of_fmus_bounces_as_the_monolithic_model(soft, tmp_path):
     end = 3.72e-6
     plan = tip_law(soft.tip, 0.0, 1e-7)

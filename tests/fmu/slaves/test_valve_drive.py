@@ -167,7 +167,7 @@ def test_coupled_to_the_film_it_gives_what_the_monolithic_solver_gives(temperatu
             pull = Pull(slave.values["F_ext"] - slope * step, slope, n * step)
             state = advance(made, state, pull, step)
         errors.append(abs((state.release_time - 1e-3) / reference.release_time - 1.0))
-    # The pull is a straight line within a step, in which the acceleration jumps as the film tears.
+    # The pull is a straight line within a step, and the acceleration jumps as the film cavitates.
     assert errors[1] < 3e-5
     assert math.log2(errors[0] / errors[1]) > 1.5  # falls with the square of the step
     assert state.peak_force == pytest.approx(reference.peak_force, rel=1e-4)

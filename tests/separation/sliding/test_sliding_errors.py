@@ -96,16 +96,16 @@ def test_a_vibration_does_not_touch():
     refuses(lambda: ck.ImposedSpeed(**GAPS, **rests), "less rest_gap = 6e-07 m")
 
 
-def test_a_vibration_that_tears_the_film_at_once_is_refused():
+def test_a_vibration_that_cavitates_the_film_at_once_is_refused():
     film = ck.Meniscus(liquid=WATER, volume=1e-12)
     shaken = ck.Vibration(amplitude=0.9e-6, frequency=1e3, phase=math.pi / 2)
     loading = ck.ImposedSpeed(**GAPS, speed=1e-3, vibration=shaken)
-    torn = ck.SeparationScene(
+    cavitated = ck.SeparationScene(
         interface=ck.Interface(meniscus=film),
         loading=loading,
         effects=(ck.ViscousForce(), ck.Rupture(gap=1.5e-6)),
     )
-    made = ck.plan(torn)
+    made = ck.plan(cavitated)
     message = ("loading.vibration takes the gap to 1.9e-06 m", "reaches 1.5e-06 m", "shake less")
     refuses(lambda: ck.simulate(made), *message, error=ck.InfeasibleError)
 

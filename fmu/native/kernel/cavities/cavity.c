@@ -5,12 +5,11 @@
 
 #include <math.h>
 
-#define CK_PI 3.14159265358979323846
 #define NARROW 0.03 /* width of the ring below which the closed form would cancel: see disc_cavity.py */
 /* Fraction of the disc within an edge that is taken for a point: the logarithm of the edge stays below
    32, and the area left out is at round-off. */
 #define SMALLEST 1e-14
-#define MOST_ITERATIONS 30 /* Newton: four or five; more only next to a film that is full again */
+#define MOST_ITERATIONS 30 /* Newton takes up to eight: see separation/cavity/stages.py */
 #define ENOUGH 1e-15       /* change of the void, over the volume of the film: round-off */
 
 static double larger(double a, double b) { return a > b ? a : b; }
@@ -97,7 +96,8 @@ static double ring(double rho, double rim, double k, double drop, double speed, 
 void ck_spot_at(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at, double hollow,
                 ck_spot *spot) {
     double rim_by_void, rim = ck_rim(law, at.gap, hollow, &rim_by_void), tau = 2.0 * CK_PI;
-    double k = conductance(law, at.gap), speed = at.speed, edge, torn_gap, l, c, by_edge, by_rim, deeper;
+    double k = conductance(law, at.gap), speed = at.speed, edge, rupture_gap;
+    double l, c, by_edge, by_rim, deeper;
     spot->rim = rim;
     if (cavity->phase == CK_RECEDING) {
         double full = speed > 0.0 ? 4.0 * k * law->drop / (speed * rim) : HUGE_VAL;
@@ -108,13 +108,13 @@ void ck_spot_at(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at, 
         spot->returns = 0.0;
         return;
     }
-    edge = ck_torn_edge(cavity, at.gap, hollow, &torn_gap);
+    edge = ck_history_edge(cavity, at.gap, hollow, &rupture_gap);
     edge = smaller(larger(edge, SMALLEST * rim), (1.0 - 1e-15) * rim);
     l = rim < 1.03 * edge ? log1p((rim - edge) / edge) : log(rim / edge);
     c = 2.0 * (k * law->drop - 0.25 * speed * (rim - edge)) / l;
     by_edge = -tau * ((0.5 * speed + c / edge) / l);
     by_rim = -tau * (-(0.5 * speed + c / rim) / l);
-    deeper = CK_PI * larger(at.gap - torn_gap, 1e-12 * at.gap);
+    deeper = CK_PI * larger(at.gap - rupture_gap, 1e-12 * at.gap);
     spot->fraction = edge / rim, spot->edge = edge;
     spot->growth = -tau * c, spot->by_void = by_edge / deeper + by_rim * rim_by_void;
     spot->returns = tau * (0.5 * speed * edge + c);

@@ -1,31 +1,33 @@
-/* A film between flats that tears: the cavity, what it remembers, its forces and events.
+/* A film between flats that cavitates: the cavity, what it remembers, its forces and events.
 
-   As contactkit/lubrication/disc_cavity.py, torn_film.py and contactkit/separation/cavity, in the
-   same order of operations. Squares of radii in place of radii; one of `menisci` equal films. */
+   As contactkit/lubrication/disc_cavity.py, rupture_history.py and contactkit/separation/cavity, in
+   the same order of operations. Squares of radii in place of radii; one of `menisci` equal films. */
 
 #ifndef CK_CAVITY_H
 #define CK_CAVITY_H
 
-#define CK_TORN 64 /* pieces of the memory that are kept */
+#define CK_PI 3.14159265358979323846 /* ISO C has none */
+/* Pieces of the history that are kept: see rupture_history.py. Each state of an FMU copies them all. */
+#define CK_RUPTURE_PIECES 64
 
-enum { CK_WHOLE = 0, CK_RECEDING = 1, CK_RETURNING = 2 };
+enum { CK_FULL = 0, CK_RECEDING = 1, CK_RETURNING = 2 };
 
-/* Square of the radius and the gap at which it was torn, both cubics of a parameter from 0 to 1, and
-   the liquid within where it begins. */
+/* Square of the radius and the gap at which the film ruptured there, both cubics of a parameter from 0
+   to 1, and the liquid within where it begins. */
 typedef struct {
     double y[4], h[4], before;
-} ck_piece_torn;
+} ck_rupture_piece;
 
 /* Cavity in one film: void, fraction of the disc within the edge, the largest void since it was full,
-   and the memory of the torn film from the centre outwards. */
+   and the rupture history from the centre outwards. */
 typedef struct {
     double hollow, fraction, largest;
     int phase, count;
-    ck_piece_torn torn[CK_TORN];
+    ck_rupture_piece history[CK_RUPTURE_PIECES];
 } ck_cavity;
 
-/* One film, its tensile strength while it is whole, as a drop of pressure, 0 if it does not tear,
-   and that of the cavity. `volume` is HUGE_VAL where the rim is flooded. */
+/* One film, its tensile strength while it is full, as a drop of pressure, 0 if it does not
+   cavitate, and that of the cavity. `volume` is HUGE_VAL where the rim is flooded. */
 typedef struct {
     double menisci, rim_square, volume, viscosity, strength, drop;
 } ck_cavity_law;
@@ -56,14 +58,14 @@ typedef struct {
 extern const double ck_nodes[3], ck_weights[3], ck_stages[3][3], ck_estimate[3];
 extern const double ck_gamma;
 
-/* Memory (torn.c). */
+/* Rupture history (history.c). */
 int ck_is_cavity(const ck_cavity *cavity);         /* whether its numbers are in range */
-double ck_torn_liquid(const ck_cavity *cavity);    /* within the outermost edge */
-double ck_torn_outermost(const ck_cavity *cavity); /* square of its radius */
-double ck_torn_edge(const ck_cavity *cavity, double gap, double hollow, double *torn_gap);
-void ck_torn_cut(ck_cavity *cavity, double gap, double hollow);
-void ck_torn_add(ck_cavity *cavity, const ck_piece_torn *piece);
-void ck_torn_along(ck_piece_torn *piece, double before, const double squares[4],
+double ck_history_liquid(const ck_cavity *cavity);    /* within the outermost edge */
+double ck_history_outermost(const ck_cavity *cavity); /* square of its radius */
+double ck_history_edge(const ck_cavity *cavity, double gap, double hollow, double *rupture_gap);
+void ck_history_cut(ck_cavity *cavity, double gap, double hollow);
+void ck_history_add(ck_cavity *cavity, const ck_rupture_piece *piece);
+void ck_history_along(ck_rupture_piece *piece, double before, const double squares[4],
                    const double gaps[4]);
 
 /* Edge and forces (cavity.c). */
@@ -77,7 +79,7 @@ int ck_hollow_solve(const ck_cavity_law *law, const ck_cavity *cavity, ck_place 
                     const ck_place at[3], ck_hollow *found); /* 0 if a shorter step may do */
 
 /* Events (events.c). `solved` is NULL for a film that is full. */
-int ck_is_torn_by(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at);
+int ck_is_inception(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at);
 void ck_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck_hollow *solved,
                      ck_place begin, const ck_place at[3], double *behind, double *ahead);
 void ck_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap,

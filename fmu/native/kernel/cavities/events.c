@@ -1,4 +1,4 @@
-/* Events of a cavity: its birth, the turns of its edge, and the film that is full again. As
+/* Events of a cavity: its inception, the turns of its edge, and the film that is full again. As
    contactkit/separation/cavity/events.py, and numerics/events.py for the step that ends at one. */
 
 #include "cavity.h"
@@ -6,49 +6,48 @@
 #include <math.h>
 #include <string.h>
 
-#define CK_PI 3.14159265358979323846
 /* Void over the film at which it counts as full: the edge runs into the centre like a logarithm as the
    void vanishes, which no step size follows to the end. Larger, and it is full too early. */
-#define HEALED 1e-9
+#define REFORMED 1e-9
 #define NOTHING 1e-8  /* the same of a cavity that never was deeper than SHALLOW */
 #define SAME 1e-12    /* squares of the edge that are closer, relatively, are one */
 /* Depth of the void at the edge over the gap. The edge is where the void left is that of the memory,
    a quotient of two small differences: below this round-off moves it. */
 #define SHALLOW 1e-6
-#define RECEDES 1e-6  /* flow over the edge, over that into the film, which is more than rounding */
+#define RECEDES 1e-6  /* flow over the edge, over that into the film, which is more than round-off */
 #define MOST_TRIALS 60 /* these three as in numerics/events.py, where the reasons are */
 #define QUICK 0.01
 #define MOST_SECANTS 3
 
-int ck_is_torn_by(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at) {
-    return cavity->phase == CK_WHOLE && ck_tension_at(law, at.gap, at.speed, 0.0) >= law->strength;
+int ck_is_inception(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at) {
+    return cavity->phase == CK_FULL && ck_tension_at(law, at.gap, at.speed, 0.0) >= law->strength;
 }
 
 /* Void up to which a film counts as full. */
 static double nothing(const ck_cavity_law *law, const ck_cavity *cavity, double gap) {
     double ignored, rim = ck_rim(law, gap, cavity->hollow, &ignored);
     double film = CK_PI * rim * gap;
-    return (cavity->largest < SHALLOW * film ? NOTHING : HEALED) * film;
+    return (cavity->largest < SHALLOW * film ? NOTHING : REFORMED) * film;
 }
 
-static void constant_piece(ck_piece_torn *piece, double low, double high, double gap, double before) {
+static void constant_piece(ck_rupture_piece *piece, double low, double high, double gap, double before) {
     memset(piece, 0, sizeof *piece);
     piece->y[0] = low, piece->y[1] = high - low, piece->h[0] = gap, piece->before = before;
 }
 
-/* The liquid tears: from its strength to its cavity, at once. */
-static void born(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
+/* The liquid cavitates: from its strength to its cavity, at once. */
+static void inception(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
     double ignored, rim = ck_rim(law, at.gap, 0.0, &ignored);
     memset(cavity, 0, sizeof *cavity);
     cavity->phase = CK_RECEDING;
     cavity->fraction = ck_receding_edge(ck_tension_at(law, at.gap, at.speed, 0.0) / law->drop);
-    constant_piece(&cavity->torn[0], 0.0, cavity->fraction * rim, at.gap, 0.0);
+    constant_piece(&cavity->history[0], 0.0, cavity->fraction * rim, at.gap, 0.0);
     cavity->count = 1;
 }
 
 static void squares_of(const ck_cavity *cavity, const ck_hollow *solved, double squares[4]) {
     int i;
-    squares[0] = ck_torn_outermost(cavity);
+    squares[0] = ck_history_outermost(cavity);
     for (i = 0; i < 3; i++) squares[i + 1] = solved->spots[i].edge;
 }
 
@@ -57,7 +56,7 @@ void ck_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck
                      ck_place begin, const ck_place at[3], double *behind, double *ahead) {
     const double none[4] = {0.0, 0.0, 0.0, 0.0};
     const ck_spot *last;
-    double left, size, torn_gap, end;
+    double left, size, rupture_gap, end;
     int i;
     if (!solved) {
         double highest = -HUGE_VAL;
@@ -70,10 +69,10 @@ void ck_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck
         return;
     }
     if (cavity->phase == CK_RECEDING) {
-        ck_piece_torn piece;
+        ck_rupture_piece piece;
         double squares[4], first, final;
         squares_of(cavity, solved, squares);
-        ck_torn_along(&piece, 0.0, squares, none);
+        ck_history_along(&piece, 0.0, squares, none);
         first = piece.y[1], final = piece.y[1] + 2.0 * piece.y[2] + 3.0 * piece.y[3];
         size = fabs(first) + fabs(final);
         if (size == 0.0) size = 1.0;
@@ -89,8 +88,8 @@ void ck_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck
         return;
     }
     *behind = *ahead = -1.0;
-    ck_torn_edge(cavity, at[2].gap, end, &torn_gap);
-    if (at[2].gap - torn_gap <= SHALLOW * at[2].gap) return;
+    ck_history_edge(cavity, at[2].gap, end, &rupture_gap);
+    if (at[2].gap - rupture_gap <= SHALLOW * at[2].gap) return;
     *ahead = -last->returns / (fabs(last->growth) + fabs(last->returns) + 1e-300) - RECEDES;
 }
 
@@ -99,10 +98,10 @@ void ck_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap
                     const double gaps[3]) {
     if (cavity->phase == CK_RECEDING) {
         double squares[4], all[4] = {begin_gap, gaps[0], gaps[1], gaps[2]};
-        ck_piece_torn piece;
+        ck_rupture_piece piece;
         squares_of(cavity, solved, squares);
-        ck_torn_along(&piece, ck_torn_liquid(cavity), squares, all);
-        ck_torn_add(cavity, &piece);
+        ck_history_along(&piece, ck_history_liquid(cavity), squares, all);
+        ck_history_add(cavity, &piece);
     }
     cavity->hollow = solved->voids[2], cavity->fraction = solved->spots[2].fraction;
     if (cavity->hollow > cavity->largest) cavity->largest = cavity->hollow;
@@ -110,15 +109,15 @@ void ck_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap
 
 /* Cavity after the event at the end of a step. */
 void ck_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
-    if (cavity->phase == CK_WHOLE) {
-        born(law, cavity, at);
+    if (cavity->phase == CK_FULL) {
+        inception(law, cavity, at);
     } else if (cavity->phase == CK_RECEDING) {
-        cavity->hollow = CK_PI * at.gap * ck_torn_outermost(cavity) - ck_torn_liquid(cavity);
+        cavity->hollow = CK_PI * at.gap * ck_history_outermost(cavity) - ck_history_liquid(cavity);
         cavity->phase = CK_RETURNING;
     } else if (cavity->hollow <= 2.0 * nothing(law, cavity, at.gap)) {
         memset(cavity, 0, sizeof *cavity);
     } else {
-        ck_torn_cut(cavity, at.gap, cavity->hollow);
+        ck_history_cut(cavity, at.gap, cavity->hollow);
         cavity->phase = CK_RECEDING;
     }
 }
@@ -127,19 +126,19 @@ void ck_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
 void ck_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
     double ignored, rim, fraction, here;
     int recedes = cavity->phase == CK_RECEDING;
-    ck_piece_torn jump;
-    if (cavity->phase == CK_WHOLE) {
-        if (ck_is_torn_by(law, cavity, at)) born(law, cavity, at);
+    ck_rupture_piece jump;
+    if (cavity->phase == CK_FULL) {
+        if (ck_is_inception(law, cavity, at)) inception(law, cavity, at);
         return;
     }
     rim = ck_rim(law, at.gap, cavity->hollow, &ignored);
     fraction = ck_receding_edge(ck_tension_at(law, at.gap, at.speed, cavity->hollow) / law->drop);
-    here = recedes ? ck_torn_outermost(cavity)
-                   : ck_torn_edge(cavity, at.gap, cavity->hollow, &ignored);
+    here = recedes ? ck_history_outermost(cavity)
+                   : ck_history_edge(cavity, at.gap, cavity->hollow, &ignored);
     if (fraction * rim > here * (1.0 + SAME)) {
-        if (!recedes) ck_torn_cut(cavity, at.gap, cavity->hollow);
-        constant_piece(&jump, here, fraction * rim, at.gap, ck_torn_liquid(cavity));
-        ck_torn_add(cavity, &jump);
+        if (!recedes) ck_history_cut(cavity, at.gap, cavity->hollow);
+        constant_piece(&jump, here, fraction * rim, at.gap, ck_history_liquid(cavity));
+        ck_history_add(cavity, &jump);
         cavity->phase = CK_RECEDING, cavity->fraction = fraction;
     } else if (recedes && fraction * rim < here * (1.0 - SAME)) {
         ck_cavity_event(law, cavity, at);

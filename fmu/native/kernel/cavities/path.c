@@ -9,7 +9,7 @@
 /* Of the travel, the first step. Just after its inception a cavity spreads as a root of time; too long a
    step is rejected, too short ones grow eightfold. */
 #define FIRST 1e-3
-#define EVENT 1e-10 /* what an event may be missed by: less than the error of the void, `VOID` */
+#define EVENT 1e-10 /* what an event may be missed by: see separation/cavity/path.py */
 
 typedef struct {
     const ck_path *path;
@@ -29,13 +29,13 @@ static int go(attempt *one, double dt) {
     const ck_path *path = one->path;
     int i;
     for (i = 0; i < 3; i++) one->at[i] = place(path, path->time + ck_nodes[i] * dt);
-    if (path->cavity->phase == CK_WHOLE) return 1;
+    if (path->cavity->phase == CK_FULL) return 1;
     return ck_hollow_solve(path->law, path->cavity, one->begin, dt, one->at, &one->hollow);
 }
 
 static void judge(attempt *one) {
     const ck_cavity *cavity = one->path->cavity;
-    ck_beyond_event(one->path->law, cavity, cavity->phase == CK_WHOLE ? NULL : &one->hollow,
+    ck_beyond_event(one->path->law, cavity, cavity->phase == CK_FULL ? NULL : &one->hollow,
                     one->begin, one->at, &one->behind, &one->ahead);
 }
 
@@ -59,7 +59,7 @@ void ck_path_begin(ck_path *path, const ck_cavity_law *law, ck_cavity *cavity, c
 
 /* Longest step that meets the tolerance, and its error over it; 0 if there is none. */
 static double accepted(const ck_path *path, attempt *one, double length, double *error) {
-    int i, whole = path->cavity->phase == CK_WHOLE;
+    int i, whole = path->cavity->phase == CK_FULL;
     for (i = 0; i < 80; i++) {
         *error = HUGE_VAL;
         if (go(one, length)) *error = whole ? 0.0 : one->hollow.error / path->rtol;
@@ -75,7 +75,7 @@ int ck_path_next(ck_path *path, double *impulse, int *full) {
     int event = 0, i;
     *impulse = 0.0, *full = 0;
     one.path = path, one.begin = place(path, path->time);
-    if (ck_is_torn_by(path->law, path->cavity, one.begin)) {
+    if (ck_is_inception(path->law, path->cavity, one.begin)) {
         ck_cavity_event(path->law, path->cavity, one.begin);
         return CK_PATH_STEP;
     }
@@ -94,7 +94,7 @@ int ck_path_next(ck_path *path, double *impulse, int *full) {
                      : ck_step_to_event(trial, &one, one.behind, one.ahead, length, EVENT);
         path->planned = fmax(length, 1e-3 * whole);
     }
-    *full = path->cavity->phase == CK_WHOLE && length > 0.0;
+    *full = path->cavity->phase == CK_FULL && length > 0.0;
     if (length > 0.0) {
         if (!*full) {
             double gaps[3];

@@ -1,8 +1,8 @@
 """Put what ``make bench`` measured against other programs into docs/demands/peers.json.
 
-``python docs/scripts/peers_data.py`` reads what the benchmark leaves in ``out/bench``: single
-contacts from contact.json, the other comparisons from features.json, adhesion.json and
-leakage.json. What was not run keeps its old rows. Then ``python docs/scripts/demands --draw``.
+``python docs/scripts/demands/peers_data.py`` reads what the benchmark leaves in ``out/bench``:
+single contacts from contact.json, the other comparisons from features.json, adhesion.json and
+leakage.json. What was not run keeps its old rows. `make pages PAGES=peers` draws the page, too.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 FOUND, KEPT = ROOT / "out" / "bench", ROOT / "docs" / "demands" / "peers.json"
 NAMES = {"aspher": "aspher", "slippy": "SlipPY", "tamaas": "tamaas"} | {
     "ContactMechanics": "ContactMechanics"

@@ -1,25 +1,24 @@
-/* Memory of a torn film: at which gap each radius was torn. See torn_film.py for the equations. */
+/* Rupture history: at which gap the film ruptured at each radius. See rupture_history.py for the
+   equations. */
 
 #include "cavity.h"
 
 #include <math.h>
 
-#define CK_PI 3.14159265358979323846
-
-static double square_at(const ck_piece_torn *p, double t) {
+static double square_at(const ck_rupture_piece *p, double t) {
     return p->y[0] + t * (p->y[1] + t * (p->y[2] + t * p->y[3]));
 }
 
-static double gap_at(const ck_piece_torn *p, double t) {
+static double gap_at(const ck_rupture_piece *p, double t) {
     return p->h[0] + t * (p->h[1] + t * (p->h[2] + t * p->h[3]));
 }
 
-static double rate_at(const ck_piece_torn *p, double t) {
+static double rate_at(const ck_rupture_piece *p, double t) {
     return p->y[1] + t * (2.0 * p->y[2] + 3.0 * t * p->y[3]);
 }
 
 /* Liquid up to a parameter, exactly. */
-static double liquid_at(const ck_piece_torn *p, double t) {
+static double liquid_at(const ck_rupture_piece *p, double t) {
     double y1 = p->y[1], y2 = 2.0 * p->y[2], y3 = 3.0 * p->y[3]; /* of the slope */
     double h0 = p->h[0], h1 = p->h[1], h2 = p->h[2], h3 = p->h[3], total = (h3 * y3) / 6.0;
     total = total * t + (h2 * y3 + h3 * y2) / 5.0;
@@ -30,16 +29,16 @@ static double liquid_at(const ck_piece_torn *p, double t) {
 }
 
 int ck_is_cavity(const ck_cavity *cavity) {
-    return cavity->phase >= CK_WHOLE && cavity->phase <= CK_RETURNING && cavity->count >= 0 &&
-           cavity->count <= CK_TORN;
+    return cavity->phase >= CK_FULL && cavity->phase <= CK_RETURNING && cavity->count >= 0 &&
+           cavity->count <= CK_RUPTURE_PIECES;
 }
 
-double ck_torn_liquid(const ck_cavity *cavity) {
-    return cavity->count ? liquid_at(&cavity->torn[cavity->count - 1], 1.0) : 0.0;
+double ck_history_liquid(const ck_cavity *cavity) {
+    return cavity->count ? liquid_at(&cavity->history[cavity->count - 1], 1.0) : 0.0;
 }
 
-double ck_torn_outermost(const ck_cavity *cavity) {
-    return cavity->count ? square_at(&cavity->torn[cavity->count - 1], 1.0) : 0.0;
+double ck_history_outermost(const ck_cavity *cavity) {
+    return cavity->count ? square_at(&cavity->history[cavity->count - 1], 1.0) : 0.0;
 }
 
 /* Coefficients of the cubic through values at the start of a step and its stages. */
@@ -55,7 +54,7 @@ static void cubic(const double f[4], double found[4]) {
     found[2] = d2[0] - d * (x[0] + x[1] + x[2]), found[3] = d;
 }
 
-void ck_torn_along(ck_piece_torn *piece, double before, const double squares[4],
+void ck_history_along(ck_rupture_piece *piece, double before, const double squares[4],
                    const double gaps[4]) {
     cubic(squares, piece->y);
     cubic(gaps, piece->h);
@@ -66,9 +65,13 @@ void ck_torn_along(ck_piece_torn *piece, double before, const double squares[4],
 static int place(const ck_cavity *cavity, double gap, double hollow, double *where) {
     double reach = CK_PI * gap, below, above, low = 0.0, high = 1.0, t;
     int index = 0, last = cavity->count - 1, i;
-    const ck_piece_torn *torn = cavity->torn, *p;
-    while (index < last && reach * torn[index + 1].y[0] - torn[index + 1].before < hollow) index++;
-    p = &torn[index];
+    const ck_rupture_piece *history = cavity->history, *p;
+    /* Outwards, to the first edge that holds the void: where the gap of rupture is above the present one
+       the void falls again, as liquid is back. */
+    while (index < last && reach * history[index + 1].y[0] - history[index + 1].before < hollow) {
+        index++;
+    }
+    p = &history[index];
     below = reach * p->y[0] - p->before - hollow;
     above = reach * square_at(p, 1.0) - liquid_at(p, 1.0) - hollow;
     *where = 1.0;
@@ -91,29 +94,29 @@ static int place(const ck_cavity *cavity, double gap, double hollow, double *whe
 }
 
 /* Square of the radius of the edge of a void, and the gap at which it was there. */
-double ck_torn_edge(const ck_cavity *cavity, double gap, double hollow, double *torn_gap) {
+double ck_history_edge(const ck_cavity *cavity, double gap, double hollow, double *rupture_gap) {
     double held, t;
     int index;
-    *torn_gap = gap;
+    *rupture_gap = gap;
     if (!cavity->count) return 0.0;
-    held = CK_PI * gap * ck_torn_outermost(cavity) - ck_torn_liquid(cavity);
+    held = CK_PI * gap * ck_history_outermost(cavity) - ck_history_liquid(cavity);
     if (hollow <= 0.0 && 0.0 < held) {
-        *torn_gap = cavity->torn[0].h[0];
+        *rupture_gap = cavity->history[0].h[0];
         return 0.0;
     }
     index = place(cavity, gap, hollow, &t);
-    *torn_gap = gap_at(&cavity->torn[index], t);
-    return square_at(&cavity->torn[index], t);
+    *rupture_gap = gap_at(&cavity->history[index], t);
+    return square_at(&cavity->history[index], t);
 }
 
-/* Forget what was torn beyond the edge of a void. */
-void ck_torn_cut(ck_cavity *cavity, double gap, double hollow) {
+/* Forget the ruptures beyond the edge of a void. */
+void ck_history_cut(ck_cavity *cavity, double gap, double hollow) {
     double t, scale = 1.0;
-    ck_piece_torn *p;
+    ck_rupture_piece *p;
     int i, index;
     if (!cavity->count) return;
     index = place(cavity, gap, hollow, &t);
-    p = &cavity->torn[index];
+    p = &cavity->history[index];
     for (i = 1; i < 4; i++) {
         scale *= t;
         p->y[i] *= scale, p->h[i] *= scale;
@@ -122,7 +125,7 @@ void ck_torn_cut(ck_cavity *cavity, double gap, double hollow) {
 }
 
 /* One piece for two neighbours with their liquid, in which both cubics ascend. */
-static void join(ck_piece_torn *first, const ck_piece_torn *second) {
+static void join(ck_rupture_piece *first, const ck_rupture_piece *second) {
     double low = first->y[0], high = square_at(second, 1.0), begin = first->h[0];
     double end = gap_at(second, 1.0), liquid = liquid_at(second, 1.0) - first->before;
     double width = high - low, mean, share, bend;
@@ -138,33 +141,33 @@ static void join(ck_piece_torn *first, const ck_piece_torn *second) {
 }
 
 /* What two neighbours lose when they become one, by the radii and gaps they span. */
-static double lost(const ck_cavity *cavity, const ck_piece_torn *last, int i) {
-    const ck_piece_torn *low = &cavity->torn[i], *high;
+static double lost(const ck_cavity *cavity, const ck_rupture_piece *last, int i) {
+    const ck_rupture_piece *low = &cavity->history[i], *high;
     double y, h;
-    if (i + 2 == CK_TORN) y = last->y[0], h = last->h[0];
-    else if (i + 2 > CK_TORN) y = square_at(last, 1.0), h = gap_at(last, 1.0);
-    else high = &cavity->torn[i + 2], y = high->y[0], h = high->h[0];
+    if (i + 2 == CK_RUPTURE_PIECES) y = last->y[0], h = last->h[0];
+    else if (i + 2 > CK_RUPTURE_PIECES) y = square_at(last, 1.0), h = gap_at(last, 1.0);
+    else high = &cavity->history[i + 2], y = high->y[0], h = high->h[0];
     return (y - low->y[0]) * fabs(h - low->h[0]);
 }
 
 /* Add a piece; where there are too many, two become one: those over which radius and gap change
    least. */
-void ck_torn_add(ck_cavity *cavity, const ck_piece_torn *piece) {
+void ck_history_add(ck_cavity *cavity, const ck_rupture_piece *piece) {
     double least = HUGE_VAL;
     int i, index = 0;
-    if (cavity->count < CK_TORN) {
-        cavity->torn[cavity->count++] = *piece;
+    if (cavity->count < CK_RUPTURE_PIECES) {
+        cavity->history[cavity->count++] = *piece;
         return;
     }
-    for (i = 0; i < CK_TORN; i++) {
+    for (i = 0; i < CK_RUPTURE_PIECES; i++) {
         double one = lost(cavity, piece, i);
         if (one < least) least = one, index = i;
     }
-    if (index == CK_TORN - 1) {
-        join(&cavity->torn[index], piece);
+    if (index == CK_RUPTURE_PIECES - 1) {
+        join(&cavity->history[index], piece);
         return;
     }
-    join(&cavity->torn[index], &cavity->torn[index + 1]);
-    for (i = index + 1; i < CK_TORN - 1; i++) cavity->torn[i] = cavity->torn[i + 1];
-    cavity->torn[CK_TORN - 1] = *piece;
+    join(&cavity->history[index], &cavity->history[index + 1]);
+    for (i = index + 1; i < CK_RUPTURE_PIECES - 1; i++) cavity->history[i] = cavity->history[i + 1];
+    cavity->history[CK_RUPTURE_PIECES - 1] = *piece;
 }

@@ -1,4 +1,4 @@
-"""Viscous force of a film that tears, along an imposed motion, with the memory of its cavity."""
+"""Viscous force of a film that cavitates, along an imposed motion; its cavity is remembered."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from .cavity.events import is_torn_by
+from .cavity.events import is_inception
 from .cavity.law import Cavitation
 from .cavity.path import Place, along_path
 from .cavity.state import FULL, Cavity, Phase
 from .effects.base import LimitKind
 from .film import Film
 
-__all__ = ["Known", "TornPoint", "torn_points"]
+__all__ = ["Known", "CavityPoint", "cavity_points"]
 
 
-class TornPoint(NamedTuple):
+class CavityPoint(NamedTuple):
     """Film at a time of its path.
 
     `force` is the viscous force [N], `impulse` its time integral so far [N.s]; `limit` says
@@ -33,29 +33,30 @@ class TornPoint(NamedTuple):
 class Known(NamedTuple):
     """Film at a time of its path, with all that its way on from there depends on.
 
-    `events` are the times [s], on the way there, at which it tore, healed, or its edge turned.
+    `events` are the times [s], on the way there, of inception, of reformation and of turns of the
+    edge.
     """
 
-    point: TornPoint
+    point: CavityPoint
     cavity: Cavity
     step: float
     events: tuple[float, ...] = ()
 
 
-def torn_points(
+def cavity_points(
     film: Film,
     law: Cavitation,
     place: Place,
     times: Sequence[float],
     rtol: float,
     known: dict[float, Known] | None = None,
-) -> list[TornPoint]:
+) -> list[CavityPoint]:
     """Film at each of some ascending times [s], full at the first of them.
 
     Parameters
     ----------
     film, law
-        Forces of the film while it is whole, and how it tears.
+        Forces of the film while it is full, and how it cavitates.
     place : callable
         Gap [m] and opening speed [m/s] at a time [s], smooth.
     times : sequence of float
@@ -68,7 +69,7 @@ def torn_points(
     known = {} if known is None else known
     if times[0] not in known:
         first, cavity = place(times[0]), FULL
-        if is_torn_by(law, cavity, *first):
+        if is_inception(law, cavity, *first):
             cavity = law.inception(*first)
         known[times[0]] = Known(_point(film, law, cavity, place, times[0], 0.0), cavity, 0.0)
     for begin, end in pairwise(times):
@@ -101,9 +102,9 @@ def _after(
 
 def _point(
     film: Film, law: Cavitation, cavity: Cavity, place: Place, time: float, impulse: float
-) -> TornPoint:
+) -> CavityPoint:
     gap, speed = place(time)
     if cavity.phase is Phase.FULL:
-        return TornPoint(film.newtonian_force(gap, speed), impulse, LimitKind.NONE, 0.0, 0.0)
+        return CavityPoint(film.newtonian_force(gap, speed), impulse, LimitKind.NONE, 0.0, 0.0)
     shown = law.shown(cavity, gap, speed)
-    return TornPoint(shown.force, impulse, LimitKind.TENSION, shown.radius, shown.void)
+    return CavityPoint(shown.force, impulse, LimitKind.TENSION, shown.radius, shown.void)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Sequence
 from decimal import Decimal, localcontext
@@ -12,18 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import expm, null_space
 
-from contactkit.contact.solver.contact_solver import ContactSolver
-from contactkit.elasticity import layered
+from ...contact.solver.contact_solver import ContactSolver
+from ...elasticity import layered
+from ...reading.texts import from_json
+from .case import Found
+from .contacts import gradient, polonsky_keer, rough, violation
 
-from .hard_case import Found, HardCase
-from .hard_contacts import gradient, polonsky_keer, rough, violation
-
-__all__ = ["CASES"]
+__all__ = ["incompressible", "stiff_film", "thick"]
 
 Array = NDArray[np.float64]
-STACKS = json.loads(
-    (Path(__file__).parents[3] / "tests" / "data" / "layered.json").read_text("utf-8")
-)["stacks"]
+_TABLE = Path(__file__).with_name("disk_compliance.json")  # [1/nm], [1/GPa]; of 60 digits
 
 
 def transfer_matrix(
@@ -61,9 +58,8 @@ def transfer_matrix(
 
 def thick() -> Found:
     """Both methods at the wavenumbers of the disk, in the table of 60 digits."""
-    one = STACKS["disk_table2.1"]
-    rows = np.array(one["rows"])
-    alpha, exact = rows[:, 0], rows[:, 3]
+    one = from_json(_TABLE.read_text("utf-8"), _TABLE.name)
+    alpha, exact = np.array(one["rows"]).T
     elastic = one["young_modulus"], one["poisson_ratio"], one["thickness"]
     ours = layered.compliance(alpha, *elastic).C
     with np.errstate(all="ignore"):
@@ -125,50 +121,3 @@ def stiff_film() -> Found:
         violation(ours.pressure, heights, symbol, mean),
         f"{ours.n_applications} convolutions",
     )
-
-
-CASES = (
-    HardCase(
-        key="thick-layers",
-        half="contact",
-        title="Compliance of a coated disk under short waves",
-        why="A layer of thickness h multiplies a solution by exp(alpha h). The nickel-phosphorus "
-        "of the disk is 10 um thick and a pixel 26 nm: exp(1200).",
-        naive="the transfer matrix of each layer (Thomson and Haskell), multiplied",
-        ours="a recursion in ratios of solutions, every product scaled by exp(-2 alpha h), sums of "
-        "terms of one sign",
-        judge="a table of 60 digits",
-        tested="tests/elasticity/test_layered_values.py",
-        holds=1e-13,
-        fails=math.inf,
-        run=thick,
-    ),
-    HardCase(
-        key="incompressible-film",
-        half="contact",
-        title="A rubber film on a rigid base under the longest waves",
-        why="The film neither compresses nor slides: what is left of sinh 2x - 2x is (2x)^3/6, "
-        "sixteen digits below its terms at x = alpha h = 1e-8.",
-        naive="the closed form as it is printed, C ~ (sinh 2x - 2x)/(cosh 2x + 2x^2 + 1)",
-        ours="the same recursion, in functions that are series where x is small",
-        judge="the closed form in 60 digits",
-        tested="tests/elasticity/test_layered_hard.py",
-        holds=1e-13,
-        fails=0.5,
-        run=incompressible,
-    ),
-    HardCase(
-        key="stiff-layer",
-        half="contact",
-        title="A film 1000 times as stiff as its ground on a rough surface",
-        why="A film that bends is stiff for short waves and soft for long ones: the compliances of "
-        "the waves of a map differ by many orders of magnitude.",
-        naive="projected gradient with the longest stable step",
-        ours="a primal-dual active set on nested grids with a sparse inverse as preconditioner",
-        judge="the conditions of contact by an independent transform, over the rms height",
-        tested="tests/contact/solver/test_stiff_films.py",
-        holds=1e-7,
-        fails=1e-4,
-        run=stiff_film,
-    ),
-)

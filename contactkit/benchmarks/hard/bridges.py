@@ -10,15 +10,14 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
-from contactkit.capillary.arc import flat as arc
-from contactkit.capillary.exact.bridge import bridge
-from contactkit.capillary.exact.stability import stability_limit
-from contactkit.lubrication import couette_flat
-from contactkit.reference import elliptic_bridge
+from ...capillary.arc import flat as arc
+from ...capillary.exact.bridge import bridge
+from ...capillary.exact.stability import stability_limit
+from ...lubrication import couette_flat
+from ...reference import elliptic_bridge
+from .case import Found
 
-from .hard_case import Found, HardCase
-
-__all__ = ["CASES"]
+__all__ = ["hysteresis", "near_limit", "right_angle", "rupture"]
 
 Array = NDArray[np.float64]
 DEG = math.pi / 180.0
@@ -86,9 +85,12 @@ def shooting(gap: float, angle: float) -> float:
         run = solve_ivp(slopes, (0.5 * math.pi, angle), [neck, 0.0, 0.0])
         return 2.0 * run.y[1, -1] / gap - 1.0, 2.0 * run.y[2, -1] - 1.0
 
-    first = math.sqrt(1.0 / (math.pi * gap)), -2.0 * math.cos(angle) / gap
-    scale = np.array(first)
-    found, *_ = fsolve(lambda x: end(*(x * scale)), np.ones(2), full_output=True)
+    scale = np.array([math.sqrt(1.0 / (math.pi * gap)), -2.0 * math.cos(angle) / gap])
+
+    def missed(x: Array) -> Array:
+        return np.array(end(*(x * scale)))
+
+    found, *_ = fsolve(missed, np.ones(2), full_output=True)
     neck, pressure = found * scale
     return float(math.pi * neck * (2.0 - neck * pressure))
 
@@ -142,61 +144,3 @@ def hysteresis() -> Found:
         abs(ours / exact - 1.0),
         f"{ours:.6g} gamma w",
     )
-
-
-CASES = (
-    HardCase(
-        key="right-angle",
-        half="separation",
-        title="Contact angles of 90 degrees, less a millionth",
-        why="The radius of the meridian is ten million times the gap: neck and volume are "
-        "differences of numbers that agree in all their digits.",
-        naive="the circular meridian by its radius and the closed form of its volume",
-        ours="offsets of the meridian from its chord, in angles; straight at exactly 90 degrees",
-        judge="the same closed form in 60 digits",
-        tested="tests/capillary/test_arc_hard.py",
-        holds=1e-12,
-        fails=1e-3,
-        run=right_angle,
-    ),
-    HardCase(
-        key="near-limit",
-        half="separation",
-        title="The force at 99.99 % of the gap at which a bridge breaks",
-        why="Two branches of bridges meet there and the slope of the force is infinite: any error "
-        "of the gap is amplified.",
-        naive="Young and Laplace's equation by shooting from the neck (scipy, standard tolerances)",
-        ours="the branch followed along its own parameter, the fold located first",
-        judge="Legendre's integrals",
-        tested="tests/separation/test_separation_section5.py",
-        holds=1e-7,
-        fails=1e-3,
-        run=near_limit,
-    ),
-    HardCase(
-        key="rupture",
-        half="separation",
-        title="The gap at which a bridge breaks",
-        why="A bridge loses its stability long before its neck closes.",
-        naive="steps of the gap until the neck of a circular meridian has closed",
-        ours="the fold, the pitchfork or the detachment, whichever comes first, to round-off",
-        judge="the maximum of the gap along Legendre's integrals",
-        tested="tests/separation/test_separation_section5.py",
-        holds=1e-8,
-        fails=0.1,
-        run=rupture,
-    ),
-    HardCase(
-        key="hysteresis",
-        half="separation",
-        title="Advancing and receding angle all but equal",
-        why="The difference of two cosines that agree in twelve digits.",
-        naive="cos(receding) - cos(advancing)",
-        ours="twice the product of two sines, of mean and half difference",
-        judge="Taylor's series in the difference, which is exact",
-        tested="tests/separation/sliding/test_sliding_hard.py",
-        holds=1e-12,
-        fails=1e-6,
-        run=hysteresis,
-    ),
-)

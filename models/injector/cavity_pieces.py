@@ -1,9 +1,9 @@
 """Cavity of the film in a monolithic simulation: its equation, its events, its memory.
 
 The void volume is one more unknown of the solver. The liquid at the edge recedes or returns
-throughout a piece, and what it has torn is read off the dense output of the solver afterwards.
-The laws of film and edge are those of `contactkit.separation.cavity`; the stages, the search for
-events and the control of errors are not.
+throughout a piece, and where the film ruptured is read off the dense output of the solver
+afterwards. The laws of film and edge are those of `contactkit.separation.cavity`; the stages,
+the search for events and the control of errors are not.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ...errors import PlanError
 from ...lubrication.disc_cavity import receding_edge
-from ...lubrication.torn_film import cut, outermost, piece_along, torn_to, void_within
+from ...lubrication.rupture_history import cut, liquid_within, outermost, piece_along, void_within
 from ...numerics.radau_tableau import NODES
 from ...separation.cavity.law import Cavitation, CavityLaw
 from ...separation.cavity.stages import force_at, spot_at
@@ -25,26 +25,26 @@ from ...separation.cavity.state import FULL, Cavity, Phase
 
 __all__ = [
     "round_cavity",
-    "HEALED",
-    "TornFilm",
+    "REFORMED",
+    "CavitatedFilm",
     "grows_again",
     "liquid_returns",
     "remembered",
     "still_recedes",
-    "torn_film",
+    "cavitated_film",
     "turned",
     "void_scale",
 ]
 
 # The edge runs into the centre like a logarithm as the void vanishes, which no step size follows to
 # the end. Larger, the film would be full too early.
-HEALED = 1e-10
+REFORMED = 1e-10
 """Void over the largest of a cavity, at which the film counts as full."""
 
-_RECEDES = 1e-6  # flow over the edge, over that into the film, which is more than rounding
+_RECEDES = 1e-6  # flow over the edge, over that into the film, which is more than round-off
 
 
-class TornFilm(NamedTuple):
+class CavitatedFilm(NamedTuple):
     """Force of a film with a cavity [N], and growth of the void in one film [m3/s]."""
 
     force: float
@@ -68,14 +68,16 @@ def round_cavity(law: Cavitation | None) -> CavityLaw | None:
 
 
 def void_scale(law: CavityLaw | None, gap: float) -> float:
-    """Volume of the full film at a gap [m3]; 1 where the film cannot tear."""
+    """Volume of the full film at a gap [m3]; 1 where the film cannot cavitate."""
     return 1.0 if law is None else math.pi * law.rim(gap, 0.0)[0] * gap
 
 
-def torn_film(law: CavityLaw, cavity: Cavity, gap: float, speed: float, void: float) -> TornFilm:
+def cavitated_film(
+    law: CavityLaw, cavity: Cavity, gap: float, speed: float, void: float
+) -> CavitatedFilm:
     """Force and growth of the void at a gap [m], a speed [m/s] and a void [m3]."""
     spot = spot_at(law, cavity, gap, speed, void)
-    return TornFilm(force_at(law, spot, gap, speed).force, spot.growth)
+    return CavitatedFilm(force_at(law, spot, gap, speed).force, spot.growth)
 
 
 def still_recedes(
@@ -116,10 +118,10 @@ def remembered(
     """Cavity at the end of a piece in which liquid receded.
 
     `times` [s] are those of the steps of the solver, and `at` gives gap [m], speed [m/s] and void
-    [m3] at times. Each step becomes a piece of the memory, which is a cubic through four of its
+    [m3] at times. Each step becomes a piece of the history, which is a cubic through four of its
     instants: what is remembered is as good as the dense output.
     """
-    torn = cavity.torn
+    history = cavity.history
     for begin, end in zip(times[:-1].tolist(), times[1:].tolist(), strict=True):
         instants = [begin, *(begin + node * (end - begin) for node in NODES[:2]), end]
         gaps, speeds, voids = at(np.array(instants)).tolist()
@@ -128,19 +130,19 @@ def remembered(
             for place in zip(gaps, speeds, voids, strict=True)
         ]
         # One edge for both of two neighbours, though they come from two steps.
-        squares[0] = outermost(torn)
-        torn = (*torn, piece_along(torn_to(torn), squares, gaps))
-    return cavity._replace(torn=torn)
+        squares[0] = outermost(history)
+        history = (*history, piece_along(liquid_within(history), squares, gaps))
+    return cavity._replace(history=history)
 
 
 def turned(cavity: Cavity, gap: float) -> Cavity:
     """Cavity to which liquid returns from now on, at a gap [m]."""
-    void = void_within(cavity.torn, gap)
+    void = void_within(cavity.history, gap)
     return cavity._replace(phase=Phase.RETURNING, void=void, largest=void)
 
 
 def grows_again(cavity: Cavity, gap: float, void: float) -> Cavity:
     """Cavity from whose edge liquid recedes again, at a gap [m] and a void [m3]."""
-    if void <= 2.0 * HEALED * cavity.largest:
+    if void <= 2.0 * REFORMED * cavity.largest:
         return FULL
-    return cavity._replace(phase=Phase.RECEDING, void=void, torn=cut(cavity.torn, gap, void))
+    return cavity._replace(phase=Phase.RECEDING, void=void, history=cut(cavity.history, gap, void))

@@ -1,4 +1,4 @@
-"""Film that tears over the cycles of a vibration: each begins with what the last one left."""
+"""Film that cavitates over the cycles of a vibration: each begins with what the last one left."""
 
 from __future__ import annotations
 
@@ -11,29 +11,29 @@ from scipy.interpolate import CubicHermiteSpline
 
 from ..cavity.law import Cavitation
 from ..cavity.path import Place
+from ..cavity_points import CavityPoint, Known, cavity_points
 from ..film import Film
-from ..torn_path import Known, TornPoint, torn_points
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["TornCycles"]
+__all__ = ["CavityCycles"]
 
 
 @frozen(eq=False)
-class TornCycles:
-    """Film that tears along a vibration, and along the same opening without it.
+class CavityCycles:
+    """Film that cavitates along a vibration, and along the same opening without it.
 
     Parameters
     ----------
     film, law
-        Forces of the film while it is whole, and how it tears.
+        Forces of the film while it is full, and how it cavitates.
     vibrating, steady : callable
         Gap [m] and speed [m/s] at a time [s], with and without the vibration.
     times : sequence of float
         Where the film is computed [s], ascending; later others may be asked for.
     rtol : float
-        As in `torn_points`.
+        As in `cavity_points`.
     """
 
     film: Film
@@ -54,16 +54,18 @@ class TornCycles:
             self.times, [p.impulse for p in points], [p.force for p in points]
         )
 
-    def at(self, times: Sequence[float]) -> list[TornPoint]:
+    def at(self, times: Sequence[float]) -> list[CavityPoint]:
         """Film at ascending times [s], of which the first is among `times`."""
-        return torn_points(self.film, self.law, self.vibrating, times, self.rtol, self._known)
+        return cavity_points(self.film, self.law, self.vibrating, times, self.rtol, self._known)
 
-    def steady_at(self, times: Sequence[float]) -> list[TornPoint]:
+    def steady_at(self, times: Sequence[float]) -> list[CavityPoint]:
         """Film without the vibration at ascending times [s], up to the end of the film."""
         inside = [time for time in times if self.steady(time)[0] <= self.film.end]
         if not inside:
             return []
-        return torn_points(self.film, self.law, self.steady, inside, self.rtol, self._known_steady)
+        return cavity_points(
+            self.film, self.law, self.steady, inside, self.rtol, self._known_steady
+        )
 
     def events(self, times: Sequence[float]) -> list[float]:
         """Times [s] between known ones of rupture, of reformation, and at which the edge turns."""

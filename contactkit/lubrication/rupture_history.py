@@ -1,4 +1,4 @@
-r"""Memory of a film that was torn: the gap at which the edge of the cavity passed each radius.
+r"""Rupture history of a film: the gap at which the edge of the cavity passed each radius.
 
 Nothing flows within a cavity between faces that move apart, so that the liquid there stays what it
 was when the edge passed: :math:`\theta h = h_b(y)`, with :math:`y = r^2`. The void up to an edge is
@@ -17,20 +17,20 @@ from typing import NamedTuple
 
 __all__ = [
     "Edge",
-    "Torn",
+    "RuptureHistory",
     "cut",
     "edge_of",
     "grown",
     "piece_at",
     "outermost",
     "piece_along",
-    "torn_to",
+    "liquid_within",
     "void_within",
 ]
 
 Piece = tuple[float, ...]
 """Coefficients of y (4, [m2]) and of h_b (4, [m]) in the parameter, and M at its start [m3]."""
-Torn = tuple[Piece, ...]
+RuptureHistory = tuple[Piece, ...]
 """Pieces from the centre outwards."""
 
 # Pieces that are kept. Of an edge that receded in 400 steps over a gap that swung, its square is
@@ -43,11 +43,11 @@ class Edge(NamedTuple):
     """Edge of a cavity: the square of its radius [m2], and the gap at which it was there [m]."""
 
     square: float
-    torn_gap: float
+    rupture_gap: float
 
 
 def piece_at(square: float, gap: float) -> Piece:
-    """Piece from the centre to an edge, which was torn at once at one gap [m]."""
+    """Piece from the centre to an edge, where the film ruptured at once at one gap [m]."""
     return (0.0, square, 0.0, 0.0, gap, 0.0, 0.0, 0.0, 0.0)
 
 
@@ -102,47 +102,47 @@ def _liquid(piece: Piece, t: float) -> float:
     return before + math.pi * t * (total * t + h0 * y1)
 
 
-def torn_to(torn: Torn) -> float:
+def liquid_within(history: RuptureHistory) -> float:
     """Liquid within the outermost edge that is remembered, M [m3]."""
-    return _liquid(torn[-1], 1.0) if torn else 0.0
+    return _liquid(history[-1], 1.0) if history else 0.0
 
 
-def outermost(torn: Torn) -> float:
+def outermost(history: RuptureHistory) -> float:
     """Square of the radius of the outermost edge that is remembered [m2]."""
-    return _square(torn[-1], 1.0) if torn else 0.0
+    return _square(history[-1], 1.0) if history else 0.0
 
 
-def void_within(torn: Torn, gap: float) -> float:
+def void_within(history: RuptureHistory, gap: float) -> float:
     """Void within the outermost edge that is remembered [m3], at a gap [m]."""
-    return math.pi * gap * _square(torn[-1], 1.0) - torn_to(torn)
+    return math.pi * gap * _square(history[-1], 1.0) - liquid_within(history)
 
 
-def edge_of(torn: Torn, gap: float, void: float) -> Edge:
+def edge_of(history: RuptureHistory, gap: float, void: float) -> Edge:
     """Edge of the cavity of a given void [m3] at a gap [m].
 
     The outermost one that is remembered if the void is not smaller than that holds, as where the
-    film was just torn; none (0) if there is no void in a gap that has opened since.
+    film has just ruptured; none (0) if there is no void in a gap that has opened since.
     """
-    if not torn:
+    if not history:
         return Edge(0.0, gap)
-    if void <= 0.0 < void_within(torn, gap):
-        return Edge(0.0, torn[0][4])
-    index, t = _place(torn, gap, void)
-    piece = torn[index]
+    if void <= 0.0 < void_within(history, gap):
+        return Edge(0.0, history[0][4])
+    index, t = _place(history, gap, void)
+    piece = history[index]
     return Edge(_square(piece, t), _gap(piece, t))
 
 
-def _place(torn: Torn, gap: float, void: float) -> tuple[int, float]:
+def _place(history: RuptureHistory, gap: float, void: float) -> tuple[int, float]:
     """Index of the piece in which the edge is, and the parameter there."""
-    reach, index, last = math.pi * gap, 0, len(torn) - 1
-    while index < last:  # by halves: beyond a torn gap as wide as the present one liquid is back
+    reach, index, last = math.pi * gap, 0, len(history) - 1
+    while index < last:  # by halves: beyond a rupture gap as wide as the present one liquid is back
         middle = (index + last + 1) // 2
-        start = torn[middle]
+        start = history[middle]
         if start[4] < gap and reach * start[0] - start[8] < void:
             index = middle
         else:
             last = middle - 1
-    piece = torn[index]
+    piece = history[index]
     below = reach * piece[0] - piece[8] - void
     above = reach * _square(piece, 1.0) - _liquid(piece, 1.0) - void
     if above <= 0.0:
@@ -164,42 +164,42 @@ def _place(torn: Torn, gap: float, void: float) -> tuple[int, float]:
     return index, t
 
 
-def cut(torn: Torn, gap: float, void: float) -> Torn:
-    """Forget what was torn beyond the edge of a cavity of a given void [m3] at a gap [m]."""
-    if not torn:
+def cut(history: RuptureHistory, gap: float, void: float) -> RuptureHistory:
+    """Forget the ruptures beyond the edge of a cavity of a given void [m3] at a gap [m]."""
+    if not history:
         return ()
-    index, t = _place(torn, gap, void)
-    piece = torn[index]
+    index, t = _place(history, gap, void)
+    piece = history[index]
     scales = (1.0, t, t * t, t * t * t)
     shorter = [c * scale for c, scale in zip(piece[:8], scales + scales, strict=True)]
-    return (*torn[:index], (*shorter, piece[8]))
+    return (*history[:index], (*shorter, piece[8]))
 
 
-def grown(torn: Torn, piece: Piece) -> Torn:
-    """Memory with one more piece; where there are too many, two become one.
+def grown(history: RuptureHistory, piece: Piece) -> RuptureHistory:
+    """History with one more piece; where there are too many, two become one.
 
     The one that stands for two neighbours has their ends and their liquid, so that no volume is
     lost; they are those over which radius and gap change least.
     """
-    torn = (*torn, piece)
-    if len(torn) <= _MOST:
-        return torn
-    ends = [(one[0], one[4]) for one in torn] + [(_square(piece, 1.0), _gap(piece, 1.0))]
+    history = (*history, piece)
+    if len(history) <= _MOST:
+        return history
+    ends = [(one[0], one[4]) for one in history] + [(_square(piece, 1.0), _gap(piece, 1.0))]
 
     def lost(i: int) -> float:
         (low, begin), (high, end) = ends[i], ends[i + 2]
         return (high - low) * abs(end - begin)
 
-    index = min(range(len(torn) - 1), key=lost)
-    first, second = torn[index : index + 2]
-    return (*torn[:index], _joined(first, second), *torn[index + 2 :])
+    index = min(range(len(history) - 1), key=lost)
+    first, second = history[index : index + 2]
+    return (*history[:index], _joined(first, second), *history[index + 2 :])
 
 
 def _joined(first: Piece, second: Piece) -> Piece:
     """Piece that stands for two neighbours and holds their liquid, in which y and h_b ascend.
 
     h_b is straight, and y a cubic that is flat at one end; where that cannot hold the liquid, the
-    far end of h_b moves in: a gap beyond that at which the film tore would be a void below zero.
+    far end of h_b moves in: a gap beyond that of the rupture would be a void below zero.
     """
     low, high = first[0], _square(second, 1.0)
     begin, end = first[4], _gap(second, 1.0)

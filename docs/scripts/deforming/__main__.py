@@ -1,4 +1,4 @@
-"""Pictures of films between deforming bodies: `python docs/scripts/deforming_pictures.py`."""
+"""Pictures of films between deforming bodies: `python docs/scripts/deforming`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from matplotlib import pyplot as plt
 import contactkit as ck
 from contactkit.plot.style import SERIES
 
-IMG = Path(__file__).parents[1] / "img"
+IMG = Path(__file__).parents[2] / "img"
 RADIUS, GAP, VISCOSITY, SPEED = 5e-3, 1e-6, 0.1, 1e-5
 
 

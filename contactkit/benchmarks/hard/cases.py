@@ -1,0 +1,253 @@
+"""Table of the hard cases: why each is hard, both methods, what judges them, and their bounds.
+
+`contactkit cost NAME`, the page of the hard cases and the tests read it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from .case import HardCase
+
+__all__ = ["HARD_CASES"]
+
+RESIDUAL = "the conditions of contact by an independent transform, over the rms height"
+
+_ALL = (
+    HardCase(
+        name="thick-layers",
+        half="contact",
+        title="Compliance of a coated disk under short waves",
+        why="A layer of thickness h multiplies a solution by exp(alpha h). The nickel-phosphorus "
+        "of the disk is 10 um thick and a pixel 26 nm: exp(1200).",
+        naive="the transfer matrix of each layer (Thomson and Haskell), multiplied",
+        ours="a recursion in ratios of solutions, every product scaled by exp(-2 alpha h), sums of "
+        "terms of one sign",
+        judge="a table of 60 digits",
+        tested="tests/elasticity/test_layered_values.py",
+        holds=1e-13,
+        fails=math.inf,
+        measured_by="layers:thick",
+    ),
+    HardCase(
+        name="incompressible-film",
+        half="contact",
+        title="A rubber film on a rigid base under the longest waves",
+        why="The film neither compresses nor slides: what is left of sinh 2x - 2x is (2x)^3/6, "
+        "sixteen digits below its terms at x = alpha h = 1e-8.",
+        naive="the closed form as it is printed, C ~ (sinh 2x - 2x)/(cosh 2x + 2x^2 + 1)",
+        ours="the same recursion, in functions that are series where x is small",
+        judge="the closed form in 60 digits",
+        tested="tests/elasticity/test_layered_hard.py",
+        holds=1e-13,
+        fails=0.5,
+        measured_by="layers:incompressible",
+    ),
+    HardCase(
+        name="stiff-layer",
+        half="contact",
+        title="A film 1000 times as stiff as its ground on a rough surface",
+        why="A film that bends is stiff for short waves and soft for long ones: the compliances of "
+        "the waves of a map differ by many orders of magnitude.",
+        naive="projected gradient with the longest stable step",
+        ours="a primal-dual active set on nested grids with a sparse inverse as preconditioner",
+        judge="the conditions of contact by an independent transform, over the rms height",
+        tested="tests/contact/solver/test_stiff_films.py",
+        holds=1e-7,
+        fails=1e-4,
+        measured_by="layers:stiff_film",
+    ),
+    HardCase(
+        name="full-contact",
+        half="contact",
+        title="Full contact",
+        why="The shortest waves are the stiffest and decide the pressure; a small overlap is a "
+        "large error there.",
+        naive="a penalty: pressure is stiffness times overlap",
+        ours="no penalty: the conditions of contact themselves, to 1e-8 of the rms height",
+        judge="the spectrum of the heights over the compliance, exact",
+        tested="tests/demand_pages/test_demands.py",
+        holds=1e-6,
+        fails=1e-3,
+        measured_by="contacts:full",
+    ),
+    HardCase(
+        name="at-hardness",
+        half="contact",
+        title="99.99 % of the load that the hardness can carry",
+        why="Nearly all pixels are at the upper bound, and the last thousandth of the load has to "
+        "be found among what is left.",
+        naive="the elastic pressure, truncated at the hardness and scaled up to the load",
+        ours="lower and upper bound at once in the active set",
+        judge=RESIDUAL,
+        tested="tests/contact/solver/test_solver_hard.py",
+        holds=1e-7,
+        fails=1e-2,
+        measured_by="contacts:at_hardness",
+    ),
+    HardCase(
+        name="offset",
+        half="contact",
+        title="Roughness of 1 nm measured from a datum 1 m away",
+        why="A double has 16 digits: nine are the datum, seven the roughness.",
+        naive="the rms as root of mean square less squared mean",
+        ours="deviations from the mean, summed in two passes",
+        judge="the same heights without the datum",
+        tested="tests/roughness/test_roughness_hard.py",
+        holds=1e-6,
+        fails=0.1,
+        measured_by="contacts:offset",
+    ),
+    HardCase(
+        name="isolated",
+        half="contact",
+        title="One sphere in a narrow window",
+        why="A Fourier transform repeats the window: the sphere feels its own images.",
+        naive="the periodic convolution on the window",
+        ours="the convolution with the influence coefficients on the doubled window",
+        judge="Hertz; what is left of our error is that of the grid",
+        tested="tests/contact/test_contact_sphere.py",
+        holds=1e-3,
+        fails=1e-2,
+        measured_by="contacts:isolated",
+    ),
+    HardCase(
+        name="sharp-adhesion",
+        half="contact",
+        title="Adhesion of short range: Maugis-Dugdale near JKR",
+        why="The cohesive zone is thinner than the last digits of the ratio of its radii, "
+        "m = c/a = 1 + 1e-12 and less, and the load depends on its width.",
+        naive="Maugis' two equations in m as they are printed, and a bracketed root",
+        ours="the same equations in the width sqrt(c^2 - a^2), arranged so that nothing cancels",
+        judge="the limit, JKR, which is reached to 3e-12 here",
+        tested="tests/adhesion/test_adhesion_hard.py",
+        holds=1e-11,
+        fails=1e-6,
+        measured_by="contacts:sharp_adhesion",
+    ),
+    HardCase(
+        name="stiff-film",
+        half="separation",
+        title="A mass on an oil film of 10 nm",
+        why="The film answers a speed within 1e-12 s, the mass is released after 2 s.",
+        naive="explicit Euler, a million steps",
+        ours="implicit Runge-Kutta (Radau IIA of order 5) in a coordinate in which the impulse of "
+        "the film is nearly linear",
+        judge="two other codes that agree to 1e-9",
+        tested="tests/separation/test_motion_hard.py",
+        holds=1e-8,
+        fails=math.inf,
+        measured_by="films:stiff_film",
+    ),
+    HardCase(
+        name="stiff-film-adaptive",
+        half="separation",
+        title="The same film with error control",
+        why="Stability, not accuracy, bounds the steps of an explicit method.",
+        naive="Runge and Kutta's method of order 5 with adaptive steps (scipy, RK45)",
+        ours="the same implicit method",
+        judge="two other codes that agree to 1e-9",
+        tested="tests/separation/test_motion_hard.py",
+        holds=1e-8,
+        fails=math.inf,
+        measured_by="films:explicit_steps",
+    ),
+    HardCase(
+        name="small-opening",
+        half="separation",
+        title="The impulse of an opening by a billionth of the gap",
+        why="A small communication step of a stiff film: the impulse is the difference of two "
+        "numbers that agree in nine digits.",
+        naive="1/h0^2 - 1/h1^2",
+        ours="the difference as a product of factors that do not cancel",
+        judge="60 digits",
+        tested="tests/separation/test_film_hard.py",
+        holds=1e-14,
+        fails=1e-9,
+        measured_by="films:small_opening",
+    ),
+    HardCase(
+        name="sphere-impulse",
+        half="separation",
+        title="A sphere whose film is hardly higher than its gap",
+        why="The closed form of the source, Eq. (3.26), is a difference of logarithms of "
+        "second order in what is left.",
+        naive="ln (1 + q)^2 - ln 4q",
+        ours="one log1p of a sum of positive terms",
+        judge="60 digits",
+        tested="tests/separation/test_separation_section5.py",
+        holds=1e-8,
+        fails=1e-5,
+        measured_by="films:sphere_impulse",
+    ),
+    HardCase(
+        name="thin-lens",
+        half="separation",
+        title="Sliding circles that hardly overlap",
+        why="The area falls as the 3/2 power of the overlap, its two terms as the 1/2 power.",
+        naive="arccos q - q sqrt(1 - q^2)",
+        ours="the angle by arctan2 of factors, and its sine taken off by a series",
+        judge="series in 60 digits",
+        tested="tests/demand_pages/test_demands.py",
+        holds=1e-12,
+        fails=1e-6,
+        measured_by="films:thin_lens",
+    ),
+    HardCase(
+        name="right-angle",
+        half="separation",
+        title="Contact angles of 90 degrees, less a millionth",
+        why="The radius of the meridian is ten million times the gap: neck and volume are "
+        "differences of numbers that agree in all their digits.",
+        naive="the circular meridian by its radius and the closed form of its volume",
+        ours="offsets of the meridian from its chord, in angles; straight at exactly 90 degrees",
+        judge="the same closed form in 60 digits",
+        tested="tests/capillary/test_arc_hard.py",
+        holds=1e-12,
+        fails=1e-3,
+        measured_by="bridges:right_angle",
+    ),
+    HardCase(
+        name="near-limit",
+        half="separation",
+        title="The force at 99.99 % of the gap at which a bridge breaks",
+        why="Two branches of bridges meet there and the slope of the force is infinite: any error "
+        "of the gap is amplified.",
+        naive="Young and Laplace's equation by shooting from the neck (scipy, standard tolerances)",
+        ours="the branch followed along its own parameter, the fold located first",
+        judge="Legendre's integrals",
+        tested="tests/separation/test_separation_section5.py",
+        holds=1e-7,
+        fails=1e-3,
+        measured_by="bridges:near_limit",
+    ),
+    HardCase(
+        name="rupture",
+        half="separation",
+        title="The gap at which a bridge breaks",
+        why="A bridge loses its stability long before its neck closes.",
+        naive="steps of the gap until the neck of a circular meridian has closed",
+        ours="the fold, the pitchfork or the detachment, whichever comes first, to round-off",
+        judge="the maximum of the gap along Legendre's integrals",
+        tested="tests/separation/test_separation_section5.py",
+        holds=1e-8,
+        fails=0.1,
+        measured_by="bridges:rupture",
+    ),
+    HardCase(
+        name="hysteresis",
+        half="separation",
+        title="Advancing and receding angle all but equal",
+        why="The difference of two cosines that agree in twelve digits.",
+        naive="cos(receding) - cos(advancing)",
+        ours="twice the product of two sines, of mean and half difference",
+        judge="Taylor's series in the difference, which is exact",
+        tested="tests/demand_pages/test_demands.py",
+        holds=1e-12,
+        fails=1e-6,
+        measured_by="bridges:hysteresis",
+    ),
+)
+HARD_CASES: Mapping[str, HardCase] = {case.name: case for case in _ALL}
+"""Hard cases by name: of contacts, then of separations."""
