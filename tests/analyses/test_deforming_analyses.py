@@ -74,6 +74,7 @@ def test_moduli_meet_their_stiff_limits():
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 def test_stiction_grows_with_the_time_of_rest():
     loading = ck.PressAndPull(press=1e-3, rest=1.0, speed=1e-4, initial_gap=5e-8, final_gap=5e-7)
     moist = ck.Meniscus(liquid=WATER, relative_humidity=0.99)
