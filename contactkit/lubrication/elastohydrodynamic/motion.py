@@ -190,7 +190,8 @@ def move(
     -----
     Measured (``tests/lubrication/elastohydrodynamic``): 1e-4 of the largest force of smooth pulls
     and approaches at beta of 1e-3 to 10, 9e-4 with a cavity, 5e-4 with a contact, whose own force
-    is right to 1.5 % where most of it is gone; gaps in the instant of snap-off at beta = 10 to 3 %; 0.4 s of CPU a smooth pull, 2 to 4 s the others.
+    is right to 1.5 % where most of it is gone. Gaps in the instant of snap-off, at beta = 10, are
+    right to 3 %. A smooth pull takes 0.4 s of CPU, the others 2 to 4 s.
     """
     elements = elements or _elements(film)
     units = _units(film, speed)
