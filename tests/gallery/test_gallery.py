@@ -211,14 +211,14 @@ def test_the_documentation_shows_every_page():
             assert 0 < (shown / picture).stat().st_size < 150_000
 
 
-LONG = ("chapter_2", "measured")  # minutes; the quick pages of `measured` are in tests/references
-PAGES = ["2.1b", "2.3", "2.8", "layered-equations"]  # of chapter 2, some seconds
+LONG = ("chapter_2", "chapter_3", "measured")  # the quick pages of the last are in tests/references
+PAGES = ["2.1b", "2.3", "2.8", "layered-equations", "3.7", "3.11", "3.15", "Table 4.1"]  # seconds
 
 
 @pytest.mark.parametrize(
     "pages",
     [
-        pytest.param(PAGES, id="some of chapter_2", marks=pytest.mark.slow),
+        pytest.param(PAGES, id="some", marks=pytest.mark.slow),
         *(
             pytest.param(
                 [chapter],
