@@ -16,6 +16,8 @@ import numpy as np
 import pytest
 
 import contactkit as ck
+from contactkit.analyses.deforming.release import ReleaseCurve
+from contactkit.analyses.deforming.stiction import StictionTable
 from contactkit.fmu.master.couple import Coupled
 from contactkit.fmu.master.injector import CoSimulation
 from contactkit.fmu.slaves.stiction_mass import StictionMass
@@ -160,6 +162,10 @@ MADE = {
     "sphere": lambda: ck.simulate(ck.plan(sphere(ck.MeniscusForce()))),
     "deforming": lambda: ck.simulate(ck.plan(deforming())),
     "deforming plan": lambda: ck.plan(deforming()),
+    "moduli": lambda: ck.modulus_curve(deforming(), [1.0]),
+    "pull-off over speed": lambda: ck.pull_off_over_speed(deforming(), [1e-5]),
+    "release": lambda: ReleaseCurve("force", *np.ones((4, 2))),
+    "stiction": lambda: StictionTable(*np.ones((5, 2))),
     "slide": lambda: ck.simulate(ck.plan(sliding())),
     "contact with every effect": all_effects,
     "study": lambda: ck.study(rough(), {"loading.pressure": [1e5, 2e5]}, GRID, keep_maps=True),
