@@ -56,24 +56,15 @@ static double gap_of(const ck_model *model) {
 /* Forces at a gap and a speed with a cavity whose edge and rim stay, and the radius of the edge. */
 static void forces_of(const ck_model *model, const ck_acting *acting, double gap, double speed,
                       ck_forces *found, double *radius) {
-    static const ck_cavity whole;
     const ck_memory *memory = &model->state.memory;
     const ck_cavity_law *law = acting->any ? acting->law : NULL;
     ck_place at = {gap, speed};
-    double fraction = memory->cavity.fraction, before = memory->gap, ignored;
     ck_spot spot;
     *radius = 0.0;
     ck_forces_at(acting, gap, speed, found);
     if (!law) return;
-    if (ck_is_inception(law, &memory->cavity, at)) {
-        fraction = ck_receding_edge(ck_tension_at(law, gap, speed, whole.hollow) / law->drop);
-        before = gap;
-    } else if (memory->cavity.phase == CK_FULL) {
-        return;
-    }
-    memset(&spot, 0, sizeof spot);
-    spot.rim = ck_rim(law, before, memory->cavity.hollow, &ignored);
-    spot.fraction = fraction, spot.edge = fraction * spot.rim;
+    if (memory->cavity.phase == CK_FULL && !ck_is_inception(law, &memory->cavity, at)) return;
+    ck_spot_of(law, &memory->cavity, memory->gap, at, &spot);
     ck_forces_with(acting, &spot, at, found);
     *radius = sqrt(spot.edge);
 }

@@ -13,6 +13,7 @@
 #define CK_MODEL_H
 
 #include "drive.h"
+#include "grid.h"
 #include "motion.h"
 
 #include <stdint.h>
@@ -27,7 +28,8 @@ typedef struct {
     ck_contents contents;
     double *numbers;
     ck_cell *cells;
-    int hints[CK_MOST_FILMS * (CK_MOST_LAWS + 1) * CK_MOST_PIECES];
+    int hints[(CK_MOST_FILMS * (CK_MOST_LAWS + 1) + 1) * CK_MOST_PIECES];
+    ck_grid_film grid; /* of a film with one, and the liquid on it */
 } ck_data;
 
 /* What a film without its mass remembers: where the last step ended, and what happened so far. */
@@ -124,7 +126,7 @@ int ck_model_setup(ck_model *model, double start_time, const double *stop_time,
                    const double *tolerance);
 int ck_model_initialize(ck_model *model);
 int ck_model_step(ck_model *model, double time, double step);
-int ck_model_restore(ck_model *model, const ck_state *state);
+int ck_model_restore(ck_model *model, const ck_state *state, const double *liquid);
 
 /* States of the host: taken, restored, freed, and as bytes. */
 int ck_saved_take(ck_model *model, void **state);
