@@ -188,8 +188,12 @@ def _grid(common: _Common) -> Grid | None:
 
     if not isinstance(cavity, FaceCavity):
         return None
-    edges = common.lowest, _FARTHER * common.final_gap
-    return grid_record(cavity, tabulate(cavity.film.onset, edges))
+    if not common.free.viscosity:
+        raise PlanError(
+            "TensionLimit has no native form on a face that is no disc beside a force that is not "
+            "proportional to the viscosity it reads; leave that out, or run the scene by ck.simulate"
+        )
+    return grid_record(cavity, (common.lowest, _FARTHER * common.final_gap))
 
 
 def _laws(common: _Common, effect: SeparationForce, law: ForceLaw) -> list[Law]:

@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...errors import PlanError
+from ...lubrication.reynolds.damping import TabulatedDamping
 from ...lubrication.reynolds.discretisation import discretise, per_unknown
 from ...lubrication.reynolds.mesh import Mesh, make_mesh
 from ...separation.face.cavity import FaceCavity
+from ...separation.face.film import FaceFilm
 from ...separation.face.grid import FaceGrid
-from .records import Cells, Grid, PocketSides, Sides, Table
+from .records import Cells, Grid, Onset, PocketSides, Sides
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,17 +33,19 @@ MOST_CELLS = 16_384
 and the file 2 MB."""
 MOST_FILL = 1_000_000
 """Most entries of their factor, as there: 16 384 cells in order have 400 000."""
+_LINES = 2048
+"""Straight lines for a law in closed form between uneven faces: of 0.01 in ln h they leave 1e-5."""
 
 
-def grid_record(cavity: FaceCavity, onset: Table) -> Grid:
+def grid_record(cavity: FaceCavity, gaps: tuple[float, float]) -> Grid:
     """Grid of a film that cavitates, for the kernel.
 
     Parameters
     ----------
     cavity : FaceCavity
         The film.
-    onset : Table
-        Highest tension of the full film over viscosity and speed [1/m], over the gap.
+    gaps : (float, float)
+        Smallest and largest gap of the tables [m].
 
     Raises
     ------
@@ -58,10 +62,25 @@ def grid_record(cavity: FaceCavity, onset: Table) -> Grid:
     place = _eliminated(cavity.grid, mesh)
     return Grid(
         rtol=cavity.film_rtol,
-        onset=onset,
+        onset=_onset(cavity.film, gaps),
         cells=_cells(cavity.grid, mesh, place),
         sides=_sides(mesh, place),
         pockets=_pocket_sides(mesh, place),
+    )
+
+
+def _onset(film: FaceFilm, gaps: tuple[float, float]) -> Onset:
+    """Highest tension of the full film over its force, which every law has in common."""
+    law, depth = film.law, 0.0
+    if isinstance(law, TabulatedDamping):  # by straight lines, too
+        depth = film.depth + law.offset
+        places = np.array(law.gaps) - film.depth
+    else:
+        count = 2 if film.shape.is_even else _LINES
+        places = np.geomspace(*gaps, count)
+    ratios = [film.onset(gap) / film.coefficient(gap) for gap in places.tolist()]
+    return Onset(
+        depth=depth, place=_numbers(np.log(places + depth)), ratio=_numbers(np.log(ratios))
     )
 
 

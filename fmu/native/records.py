@@ -30,6 +30,7 @@ __all__ = [
     "FilmTables",
     "Grid",
     "Law",
+    "Onset",
     "Piece",
     "PocketSides",
     "PowerCurve",
@@ -146,11 +147,20 @@ class PocketSides(Record):
 
 
 @frozen(kw_only=True)
+class Onset(Record):
+    """Where a full film cavitates first: straight lines, and constant beyond them."""
+
+    depth: float = real("what is added to the gap before its logarithm is taken [m]")
+    place: tuple[float, ...] = column("ln of a gap and that", ascends=True)
+    ratio: tuple[float, ...] = column("ln of its highest tension over its force, times 1 m2")
+
+
+@frozen(kw_only=True)
 class Grid(Record):
     """A film that cavitates on a face that is no disc: finite volumes, and where it begins."""
 
     rtol: float = positive("error of the force that the grid leaves [-]")
-    onset: Table = part(Table, "highest tension of the full film over viscosity and speed [1/m]")
+    onset: Onset = part(Onset, "its highest tension while it is full")
     cells: Cells = part(Cells, "its cells")
     sides: Sides = part(Sides, "between them")
     pockets: PocketSides | None = maybe(PocketSides, "sides to sealed holes")

@@ -149,6 +149,16 @@ const char *ck_wrong(ck_model *model, int id, const char *must, int other, const
     return model->wrong;
 }
 
+/* Damping of the liquid over its viscosity, or NULL. */
+static const ck_table *damping_of(const ck_film *film) {
+    int i;
+    for (i = 0; i < film->n_laws; i++) {
+        const ck_law *law = &film->laws[i];
+        if (law->rate == CK_RATE_LIQUID && law->scale == CK_SCALE_VISCOSITY) return &law->table;
+    }
+    return NULL;
+}
+
 /* The tensions at which the films cavitate, and that of their cavities; what is wrong with them. */
 static const char *tensions(ck_model *model, double strength, double hold) {
     const double *v = model->state.values;
@@ -164,7 +174,8 @@ static const char *tensions(ck_model *model, double strength, double hold) {
         ck_cavity_law *law = &scene->laws[i];
         law->menisci = scene->tables->menisci, law->viscosity = scene->viscosity;
         law->rim_square = film->rim_square, law->volume = film->volume;
-        law->grid = scene->tables->has_grid ? &model->data.grid : NULL;
+        law->damping = damping_of(film);
+        law->grid = scene->tables->has_grid && law->damping ? &model->data.grid : NULL;
         law->strength = film->rim_square > 0.0 || law->grid ? strength : 0.0;
         law->drop = hold > 0.0 ? hold : strength;
     }

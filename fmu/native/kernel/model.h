@@ -28,7 +28,7 @@ typedef struct {
     ck_contents contents;
     double *numbers;
     ck_cell *cells;
-    int hints[(CK_MOST_FILMS * (CK_MOST_LAWS + 1) + 1) * CK_MOST_PIECES];
+    int hints[CK_MOST_FILMS * (CK_MOST_LAWS + 1) * CK_MOST_PIECES];
     ck_grid_film grid; /* of a film with one, and the liquid on it */
 } ck_data;
 

@@ -8,6 +8,8 @@
 #ifndef CK_CAVITY_H
 #define CK_CAVITY_H
 
+#include "description.h"
+
 #define CK_RUPTURE_PIECES 64 /* pieces of the history that are kept */
 
 enum { CK_FULL = 0, CK_RECEDING = 1, CK_RETURNING = 2 };
@@ -28,10 +30,11 @@ typedef struct {
 
 /* One film, its tensile strength while it is full, as a drop of pressure, 0 if it does not
    cavitate, and that of the cavity. `volume` is HUGE_VAL where the rim is flooded; `grid` is NULL of a
-   disc. */
+   disc, and `damping` the force of the full film over viscosity and speed. */
 typedef struct {
     double menisci, rim_square, volume, viscosity, strength, drop;
     struct ck_grid_film *grid;
+    const ck_table *damping;
 } ck_cavity_law;
 
 typedef struct {

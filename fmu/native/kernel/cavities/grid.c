@@ -308,6 +308,21 @@ double ck_grid_after(ck_grid_film *film, double gap) {
     return empty > REFORMED * ck_grid_volume(film, gap) ? empty : 0.0;
 }
 
+double ck_grid_onset(const ck_grid_film *film, double gap) {
+    const ck_onset *o = &film->record->onset;
+    double x = log(gap + o->depth), t;
+    int low = 0, high = o->n_nodes - 1;
+    if (!(x > o->place[low])) return exp(o->ratio[low]);
+    if (x >= o->place[high]) return exp(o->ratio[high]);
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        if (o->place[middle] <= x) low = middle;
+        else high = middle;
+    }
+    t = (x - o->place[low]) / (o->place[high] - o->place[low]);
+    return exp(o->ratio[low] + t * (o->ratio[high] - o->ratio[low]));
+}
+
 /* Force -------------------------------------------------------------------------------------------- */
 
 /* How the flow out of each cell of a pressure that stays follows the gap. */

@@ -56,6 +56,8 @@ void ck_grid_put(ck_grid_film *film, const double *liquid); /* NULL: none */
 void ck_grid_fill(ck_grid_film *film, double gap);
 double ck_grid_volume(const ck_grid_film *film, double gap);
 
+/* Highest tension of the full film over its force, per area. */
+double ck_grid_onset(const ck_grid_film *film, double gap);
 /* Force with the voids that the liquid leaves at one gap, at another gap and speed; from a gap of 0 all
    is full. 0 if there is none. */
 int ck_grid_held(ck_grid_film *film, ck_grid_liquid liquid, double from, double gap, double speed,

@@ -24,7 +24,8 @@ static ck_grid_liquid liquid_of(const ck_cavity_law *law) {
 double ck_tension_at(const ck_cavity_law *law, double gap, double speed, double hollow) {
     double ignored;
     if (!law->grid) return ck_disc_tension_at(law, gap, speed, hollow);
-    return law->viscosity * speed * ck_table_at(&law->grid->record->onset, gap, log(gap), &ignored);
+    return law->viscosity * speed * ck_table_at(law->damping, gap, log(gap), &ignored) *
+           ck_grid_onset(law->grid, gap);
 }
 
 int ck_is_inception(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at) {
