@@ -190,8 +190,9 @@ def _grid(common: _Common) -> Grid | None:
         return None
     if not common.free.viscosity:
         raise PlanError(
-            "TensionLimit has no native form on a face that is no disc beside a force that is not "
-            "proportional to the viscosity it reads; leave that out, or run the scene by ck.simulate"
+            "TensionLimit has no native form on a face that is no disc beside a force that is "
+            "not proportional to the viscosity it reads; leave that out, or run the scene by "
+            "ck.simulate"
         )
     return grid_record(cavity, (common.lowest, _FARTHER * common.final_gap))
 

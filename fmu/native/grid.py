@@ -7,7 +7,7 @@ times h^3/(12 eta), which it forms at each gap.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -59,7 +59,7 @@ def grid_record(cavity: FaceCavity, gaps: tuple[float, float]) -> Grid:
             f"with film_rtol = {cavity.film_rtol:g}; ask for a coarser one, such as film_rtol = "
             f"{3.0 * cavity.film_rtol:g}, or run the scene by ck.simulate"
         )
-    place = _eliminated(cavity.grid, mesh)
+    place = _eliminated(cavity.grid)
     return Grid(
         rtol=cavity.film_rtol,
         onset=_onset(cavity.film, gaps),
@@ -84,13 +84,11 @@ def _onset(film: FaceFilm, gaps: tuple[float, float]) -> Onset:
     )
 
 
-def _eliminated(grid: FaceGrid, mesh: Mesh) -> Indices:
+def _eliminated(grid: FaceGrid) -> Indices:
     """Place of each unknown in an order of elimination in which little fills in: minimum degree."""
     from scipy.sparse.linalg import splu
 
     balance = discretise(grid.face, np.ones(grid.face.shape), 1.0)
-    if balance.conductances.shape[0] != mesh.size:
-        raise PlanError("the grid of the face has deep recesses, whose cells are one")
     factor = splu(
         balance.conductances.tocsc(),
         permc_spec="MMD_AT_PLUS_A",

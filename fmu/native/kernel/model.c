@@ -40,6 +40,8 @@ int ck_model_open(ck_model *model, const char *resources, const char *guid) {
     int length = snprintf(path, sizeof path, "%s/film.bin", resources);
     if (length < 0 || (size_t)length >= sizeof path) problem = "its path is too long";
     else problem = ck_data_read(path, &model->data);
+    if (!problem && model->data.contents.has_tables && model->data.contents.tables.has_grid)
+        problem = ck_grid_open(&model->grid, &model->data.contents.tables.grid);
     if (!problem && strcmp(guid, model->data.guid) != 0)
         problem = "it belongs to an FMU with another GUID";
     if (!problem) {
@@ -55,7 +57,7 @@ int ck_model_open(ck_model *model, const char *resources, const char *guid) {
 }
 
 void ck_model_close(ck_model *model) {
-    ck_grid_close(&model->data.grid);
+    ck_grid_close(&model->grid);
     free(model->data.numbers);
     free(model->data.cells);
     model->data.numbers = NULL, model->data.cells = NULL;
@@ -64,7 +66,7 @@ void ck_model_close(ck_model *model) {
 void ck_model_reset(ck_model *model) {
     int i;
     memset(&model->state, 0, sizeof model->state);
-    ck_grid_put(&model->data.grid, NULL);
+    ck_grid_put(&model->grid, NULL);
     model->state.checksum = model->data.checksum;
     model->state.stop_time = HUGE_VAL;
     model->state.shown = 1;
@@ -175,7 +177,7 @@ static const char *tensions(ck_model *model, double strength, double hold) {
         law->menisci = scene->tables->menisci, law->viscosity = scene->viscosity;
         law->rim_square = film->rim_square, law->volume = film->volume;
         law->damping = damping_of(film);
-        law->grid = scene->tables->has_grid && law->damping ? &model->data.grid : NULL;
+        law->grid = scene->tables->has_grid && law->damping ? &model->grid : NULL;
         law->strength = film->rim_square > 0.0 || law->grid ? strength : 0.0;
         law->drop = hold > 0.0 ? hold : strength;
     }
@@ -376,9 +378,9 @@ int ck_model_step(ck_model *model, double time, double step) {
     if (length <= nothing) return put_off(model, time, step);
     ck_events_lift(model, seen);
     state->cut = 0;
-    ck_grid_keep(&model->data.grid);
+    ck_grid_keep(&model->grid);
     status = ck_model_kind(model)->step(model, time, length);
-    if (status != CK_OK) ck_grid_go_back(&model->data.grid);
+    if (status != CK_OK) ck_grid_go_back(&model->grid);
     ck_events_hold(model, seen);
     if (status != CK_OK) return status;
     state->time = ck_model_pends(model) || state->cut ? state->end : time + step;
@@ -394,7 +396,7 @@ int ck_model_step(ck_model *model, double time, double step) {
 static int is_liquid(const ck_model *model, const ck_state *state, const double *liquid) {
     int i, any = state->motion.cavity.phase != CK_FULL || state->memory.cavity.phase != CK_FULL;
     if (!liquid) return 0; /* of a grid of another size */
-    for (i = 0; any && i < model->data.grid.n; i++)
+    for (i = 0; any && i < model->grid.n; i++)
         if (!(liquid[i] >= 0.0 && liquid[i] < HUGE_VAL)) return 0;
     return 1;
 }
@@ -409,7 +411,7 @@ int ck_model_restore(ck_model *model, const ck_state *state, const double *liqui
         return ck_model_fail(model, "the FMU state is not one of this FMU; take it from this FMU, "
                                     "and keep its bytes unchanged");
     model->state = *state;
-    ck_grid_put(&model->data.grid, liquid);
+    ck_grid_put(&model->grid, liquid);
     if (state->phase >= CK_STEPPING) ck_model_kind(model)->apply(model);
     ck_events_skip(model);
     return CK_OK;
@@ -497,7 +499,7 @@ static size_t size_of(int64_t cells) { return sizeof(ck_state) + liquid_size(cel
 /* A state the host may keep: its own if it has one of this size, else a new one. */
 static ck_saved *place_for(ck_model *model, void **state) {
     ck_saved *own = (ck_saved *)ck_handle_content(CK_STATES, *state);
-    int64_t cells = model->data.grid.n;
+    int64_t cells = model->grid.n;
     void *handle;
     if (own && own->cells == cells) return own;
     own = (ck_saved *)malloc(sizeof *own + liquid_size(cells));
@@ -516,7 +518,7 @@ static ck_saved *place_for(ck_model *model, void **state) {
 static double *liquid_of(const ck_saved *saved) { return (double *)(saved + 1); }
 
 int ck_saved_take(ck_model *model, void **state) {
-    const ck_grid_film *grid = &model->data.grid;
+    const ck_grid_film *grid = &model->grid;
     ck_saved *own;
     if (!ck_is_place(state))
         return ck_model_fail(model, "getFMUstate: give the address of a state; reset the FMU");
@@ -531,7 +533,7 @@ int ck_saved_restore(ck_model *model, const void *state) {
     const ck_saved *content = (const ck_saved *)ck_handle_content(CK_STATES, state);
     if (!content) return ck_model_fail(model, NO_STATE);
     return ck_model_restore(model, &content->state,
-                            content->cells == model->data.grid.n ? liquid_of(content) : NULL);
+                            content->cells == model->grid.n ? liquid_of(content) : NULL);
 }
 
 int ck_saved_free(void **state) {
@@ -566,7 +568,7 @@ int ck_saved_write(ck_model *model, const void *state, void *bytes, size_t size)
 
 int ck_saved_read(ck_model *model, const void *bytes, size_t size, void **state) {
     const char *from = (const char *)bytes;
-    size_t cells = (size_t)model->data.grid.n;
+    size_t cells = (size_t)model->grid.n;
     ck_saved *own;
     uint64_t sum;
     if (!from || !ck_is_place(state) || size < HEAD + size_of((int64_t)cells) ||

@@ -29,7 +29,6 @@ typedef struct {
     double *numbers;
     ck_cell *cells;
     int hints[CK_MOST_FILMS * (CK_MOST_LAWS + 1) * CK_MOST_PIECES];
-    ck_grid_film grid; /* of a film with one, and the liquid on it */
 } ck_data;
 
 /* What a film without its mass remembers: where the last step ended, and what happened so far. */
@@ -89,6 +88,7 @@ typedef void (*ck_say)(void *host, int status, const char *category, const char 
 typedef struct {
     ck_data data;
     ck_scene scene; /* that of the data with the parameters in */
+    ck_grid_film grid; /* of a film with one, and the liquid on it, which is part of the state */
     ck_drive drive; /* the parameters of a drive */
     ck_state state;
     ck_say say;

@@ -123,6 +123,7 @@ typedef struct {
     const ck_cavity_law *law;
     ck_cavity *cavity;
     double first, speed, time, end, rtol, planned;
+    int tries; /* steps that were tried */
 } ck_path;
 
 enum { CK_PATH_END = 0, CK_PATH_STEP = 1, CK_PATH_LOST = 2 };
