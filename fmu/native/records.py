@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from enum import IntEnum
 from typing import ClassVar
 
@@ -159,7 +160,7 @@ class Onset(Record):
 class Grid(Record):
     """A film that cavitates on a face that is no disc: finite volumes, and where it begins."""
 
-    rtol: float = positive("error of the force that the grid leaves [-]")
+    rtol: float = real("error of the force that the grid leaves [-]", sys.float_info.min, 1.0)
     onset: Onset = part(Onset, "its highest tension while it is full")
     cells: Cells = part(Cells, "its cells")
     sides: Sides = part(Sides, "between them")
