@@ -56,8 +56,9 @@ def grid_record(cavity: FaceCavity, gaps: tuple[float, float]) -> Grid:
     if mesh.size > MOST_CELLS:
         raise PlanError(
             f"a native film that cavitates holds {MOST_CELLS} cells, this face has {mesh.size} "
-            f"with film_rtol = {cavity.film_rtol:g}; ask for a coarser one, such as film_rtol = "
-            f"{3.0 * cavity.film_rtol:g}, or run the scene by ck.simulate"
+            f"with film_rtol = {cavity.film_rtol:g}; build it with a coarser one, such as "
+            f"film_rtol = {3.0 * cavity.film_rtol:g} (accuracy.film_rtol of a scene file), or run "
+            "the scene by ck.simulate"
         )
     place = _eliminated(cavity.grid)
     return Grid(

@@ -1,4 +1,4 @@
-"""Cavities on faces that are no disc, in native FMUs: motion of the Python model, states, events."""
+"""Cavities on faces that are no disc, in native FMUs: motion of Python, states, events."""
 
 from __future__ import annotations
 
@@ -43,9 +43,7 @@ def native(shelf, open_fmu):
 
 
 def events(host):
-    return [
-        entry.message.split(" at ")[0] for entry in host.log if entry.category == "logEvents"
-    ]
+    return [entry.message.split(" at ")[0] for entry in host.log if entry.category == "logEvents"]
 
 
 @pytest.mark.slow
