@@ -99,7 +99,7 @@ def _eliminated(grid: FaceGrid) -> Indices:
     return np.asarray(factor.perm_c, dtype=np.int64)
 
 
-def _ordered(place: Indices, values: Array) -> tuple[float, ...]:
+def _ordered(place: Indices, values: NDArray[Any]) -> tuple[float, ...]:
     found = np.empty(len(place))
     found[place] = values
     return _numbers(found)

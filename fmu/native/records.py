@@ -149,7 +149,7 @@ class PocketSides(Record):
 
 @frozen(kw_only=True)
 class Onset(Record):
-    """Where a full film cavitates first: straight lines, and constant beyond them."""
+    """Highest tension of a full film over its force: straight lines, constant beyond them."""
 
     depth: float = real("what is added to the gap before its logarithm is taken [m]")
     place: tuple[float, ...] = column("ln of a gap and that", ascends=True)

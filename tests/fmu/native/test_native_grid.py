@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 from pathlib import Path
+from typing import ClassVar
 
 import attrs
 import numpy as np
@@ -21,6 +22,8 @@ from contactkit.fmu.native.data import contents_of, data_file
 from contactkit.fmu.native.film import FINE, moving, prepared_film
 from contactkit.fmu.native.sources import layout
 from contactkit.fmu.slaves.stiction_mass import PORTS
+from contactkit.scene.column import Column
+from contactkit.separation.effects.base import ForceLaw, SeparationForce
 from contactkit.separation.face.held_voids import HeldVoids
 from contactkit.separation.plan import plan
 
@@ -208,3 +211,27 @@ def test_a_grid_that_is_too_large_is_refused_with_its_cure(films, monkeypatch):
     monkeypatch.setattr(native_grid, "MOST_CELLS", 100)
     with pytest.raises(ck.PlanError, match=r"holds 100 cells, this face has 6\d\d .*film_rtol"):
         native_grid.grid_record(cavity, (1e-6, 1e-4))
+
+
+@attrs.frozen(kw_only=True)
+class Stirred(SeparationForce):
+    """Force that reads the viscosity, and is not proportional to it."""
+
+    name: ClassVar[str] = "stirred"
+    summary: ClassVar[str] = "stirred"
+    column: ClassVar[Column] = Column("stirred_force", "N", "stirred")
+    needs_film: ClassVar[bool] = False
+    sources = ("nobody",)
+
+    def liquid_needs(self, scene):
+        return ("viscosity",)
+
+    def prepare(self, prepared):
+        return ForceLaw(lambda gap, speed: prepared.liquid.viscosity**2 * speed)
+
+
+def test_a_viscosity_that_the_tables_fix_goes_with_no_cavity_on_a_grid():
+    effects = (ck.ViscousForce(), ck.TensionLimit(strength=DROP), Stirred())
+    given = scene(lower=ck.Flat(), upper=RING, effects=effects, stiffness=0.0)
+    with pytest.raises(ck.PlanError, match=r"not proportional to the viscosity it reads"):
+        prepared_film(moving(given, None), COARSE)
