@@ -2,7 +2,6 @@
 
 #include "factor.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Pivot over the diagonal below which liquid has no way to a rim: round-off of 10 000 sums is 1e-12. */
@@ -24,26 +23,27 @@ static int reach(const ck_pattern *p, int i, int *parent, int *mark, int *row) {
 
 int ck_fill_of(const ck_pattern *p, int *parent, int *mark, int most) {
     int total = 0, i;
+    for (i = 0; i < p->n; i++) mark[i] = -1;
     for (i = 0; i < p->n && total <= most; i++) total += reach(p, i, parent, mark, NULL);
     return total;
 }
 
-static int ascending(const void *one, const void *other) {
-    int a = *(const int *)one, b = *(const int *)other;
-    return (a > b) - (a < b);
-}
-
-void ck_pattern_rows(ck_pattern *p, int *parent, int *mark) {
-    int i, k, count;
+/* Rows are listed by columns and back: so their entries ascend, which is the order of elimination. */
+void ck_pattern_rows(ck_pattern *p, int *parent, int *mark, int *columns) {
+    int i, j, k;
+    for (i = 0; i < p->n; i++) mark[i] = -1;
     memset(p->column_start, 0, (size_t)(p->n + 1) * sizeof(int));
     for (i = 0, p->row_start[0] = 0; i < p->n; i++) {
-        int *row = p->row + p->row_start[i];
-        count = reach(p, i, parent, mark, row);
-        qsort(row, (size_t)count, sizeof(int), ascending);
-        for (k = 0; k < count; k++) p->column_start[row[k] + 1]++;
-        p->row_start[i + 1] = p->row_start[i] + count;
+        p->row_start[i + 1] = p->row_start[i] + reach(p, i, parent, mark, p->row + p->row_start[i]);
+        for (k = p->row_start[i]; k < p->row_start[i + 1]; k++) p->column_start[p->row[k] + 1]++;
     }
     for (i = 0; i < p->n; i++) p->column_start[i + 1] += p->column_start[i];
+    for (i = 0; i < p->n; i++) mark[i] = p->column_start[i];
+    for (i = 0; i < p->n; i++)
+        for (k = p->row_start[i]; k < p->row_start[i + 1]; k++) columns[mark[p->row[k]]++] = i;
+    for (i = 0; i < p->n; i++) mark[i] = p->row_start[i];
+    for (j = 0; j < p->n; j++)
+        for (k = p->column_start[j]; k < p->column_start[j + 1]; k++) p->row[mark[columns[k]]++] = j;
 }
 
 int ck_factorise(const ck_pattern *p, const double *diagonal, const double *sides,

@@ -24,7 +24,7 @@ typedef struct {
 
 /* How much fills in, with the tree of elimination in `parent`; more than `most` are not counted. */
 int ck_fill_of(const ck_pattern *pattern, int *parent, int *mark, int most);
-void ck_pattern_rows(ck_pattern *pattern, int *parent, int *mark);
+void ck_pattern_rows(ck_pattern *pattern, int *parent, int *mark, int *columns); /* [fill] to work in */
 /* 0 if the matrix is not positive definite; `work` is zero before and after. */
 int ck_factorise(const ck_pattern *pattern, const double *diagonal, const double *sides,
                  const unsigned char *full, double *work, ck_factor *factor);

@@ -141,13 +141,11 @@ const char *ck_grid_open(ck_grid_film *film, const ck_grid *record) {
     list_neighbours(film);
     parent = integers(film, film->n), mark = integers(film, film->n);
     if (!parent || !mark) return none;
-    for (i = 0; i < film->n; i++) mark[i] = -1;
     film->pattern.fill = ck_fill_of(&film->pattern, parent, mark, MOST_FILL);
     if (film->pattern.fill > MOST_FILL) return "its grid makes no sense";
     film->pattern.row = integers(film, film->pattern.fill);
     if (!film->pattern.row || !get_factors(film)) return none;
-    for (i = 0; i < film->n; i++) mark[i] = -1;
-    ck_pattern_rows(&film->pattern, parent, mark);
+    ck_pattern_rows(&film->pattern, parent, mark, film->factors[0].place);
     memset(film->last, 1, (size_t)film->n);
     /* Every cell has a way to a rim, or there is no pressure. */
     return ck_grid_factor(film, 1.0, film->last) ? NULL : "its grid makes no sense";
@@ -325,14 +323,16 @@ double ck_grid_onset(const ck_grid_film *film, double gap) {
 
 /* Force -------------------------------------------------------------------------------------------- */
 
+static double cube(double x) { return x * x * x; }
+
 /* How the flow out of each cell of a pressure that stays follows the gap. */
 static void flow_by_gap(const ck_grid_film *film, double gap, double *out) {
     const ck_grid *g = film->record;
     const double *q = film->pressure;
     int i, k;
     for (i = 0; i < film->n; i++) {
-        double h = height(film, i, gap), ratio = h / gap;
-        out[i] = g->cells.rim[i] * 3.0 * ratio * ratio * ratio / h * q[i];
+        double h = height(film, i, gap);
+        out[i] = g->cells.rim[i] * 3.0 * cube(h / gap) / h * q[i];
     }
     for (i = 0; i < film->n_sides; i++) {
         int low = film->low[i], high = film->high[i];
@@ -340,7 +340,7 @@ static void flow_by_gap(const ck_grid_film *film, double gap, double *out) {
         k = i - film->n_inner;
         if (k < 0) {
             double ha = height(film, low, gap), hb = height(film, high, gap);
-            double a = pow(ha / gap, 3.0), b = pow(hb / gap, 3.0), sum = a + b;
+            double a = cube(ha / gap), b = cube(hb / gap), sum = a + b;
             slope = g->sides.geometry[i] * 6.0 * a * b * (b / ha + a / hb) / (sum * sum);
         } else {
             slope = 3.0 * film->sides[i] / height(film, film->cell[k], gap);
