@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import partial
 
 import attrs
 import pytest
@@ -26,6 +27,28 @@ def refuses(call, *parts, error=DescriptionError):
     """Check that `call` raises one sentence with all `parts` in this order."""
     with pytest.raises(error, match=says(*parts)):
         call()
+
+
+def each_refused(cases, error=DescriptionError):
+    """Return the test that calls are refused, each with a message of its own.
+
+    A case is a call, a pattern of its message and, where it is not `error`, the kind of the error.
+    """
+    rows = [(call, pattern, *(kind or [error])) for call, pattern, *kind in cases]
+
+    @pytest.mark.parametrize(("call", "pattern", "kind"), rows)
+    def test(call, pattern, kind):
+        with pytest.raises(kind, match=pattern):
+            call()
+
+    return test
+
+
+def each_change_refused(rows):
+    """Return the test that objects refuse changes: each an object, its new fields, the message."""
+    return each_refused(
+        [(partial(attrs.evolve, thing, **change), re.escape(text)) for thing, change, text in rows]
+    )
 
 
 def refused_with(thing, field, value):

@@ -118,11 +118,13 @@ def stress_below(
         result.displacement,
         result.gap,
         plan.accuracy.threads,
-        attracted=attraction and attraction.attracted_of(result.of(type(attraction))),
+        attracted=None
+        if attraction is None
+        else attraction.attracted_of(result.of(type(attraction))),
     )
     law = friction or scene.effect(SurfaceTraction)
     if law is not None:
-        part = law.observe(contact) if law is friction else result.of(type(law))
+        part = result.of(type(law)) if friction is None else friction.observe(contact)
         contact = contact._replace(tractions=law.tractions(part))
     return effect.observe(contact)
 

@@ -27,21 +27,21 @@ Progress = Callable[[float], None]
 def run_scene(
     scene: Scene,
     accuracy: Accuracy,
-    vary: Mapping[str, list[Any]],
+    parameters: Mapping[str, list[Any]],
     out: Path | None,
     progress: Progress,
 ) -> Report:
     """Run a scene and the study of its file; write curves, maps and figures to a folder."""
-    study_lines(scene, accuracy, vary)  # refused before the run
+    study_lines(scene, accuracy, parameters)  # refused before the run
     made = plan(scene, accuracy)  # type: ignore[call-overload]
-    fraction = 0.5 if vary else 1.0
+    fraction = 0.5 if parameters else 1.0
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)  # the report prints every number
         result = run(made, lambda done: progress(fraction * done))
     progress(fraction)
     study = None
-    if vary:
-        study = made_study(scene, accuracy, vary, lambda done: progress(0.5 + 0.5 * done))
+    if parameters:
+        study = made_study(scene, accuracy, parameters, lambda done: progress(0.5 + 0.5 * done))
     scalars: dict[str, tuple[Any, str]] = {"status": (result.status, "-"), **result.scalars()}
     text = "\n".join([*_lines(result), *(["", *study_text(study)] if study else [])])
     if out is None:

@@ -79,12 +79,12 @@ def _opened(tables: dict[str, Any], origin: str) -> OpenedScene | OpenedDevice:
 class OpenedScene:
     """A scene of any kind, with the tables ``accuracy`` and ``study`` of its file.
 
-    `vary` holds the values of the study by the path of what is varied.
+    `parameters` holds the values of the study by the path of what is varied.
     """
 
     scene: Scene
     accuracy: Accuracy = field(factory=Accuracy)
-    vary: Mapping[str, list[Any]] = field(factory=dict)
+    parameters: Mapping[str, list[Any]] = field(factory=dict)
 
     @property
     def name(self) -> str:
@@ -95,20 +95,20 @@ class OpenedScene:
         """See `Opened.plan_text`."""
         made = plan(self.scene, self.accuracy)  # type: ignore[call-overload]
         sources = (f"  {line}" for line in made.cite().splitlines())
-        varied = study_lines(self.scene, self.accuracy, self.vary)
+        varied = study_lines(self.scene, self.accuracy, self.parameters)
         return "\n".join([str(made), "sources:", *sources, *varied])
 
     def run(self, out: Path | None, progress: Progress) -> Report:
         """See `Opened.run`."""
         from .run import run_scene
 
-        return run_scene(self.scene, self.accuracy, self.vary, out, progress)
+        return run_scene(self.scene, self.accuracy, self.parameters, out, progress)
 
     def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
         """See `Opened.study`."""
         from .study import run_study
 
-        return run_study(self.scene, self.accuracy, self.vary, out, progress, options)
+        return run_study(self.scene, self.accuracy, self.parameters, out, progress, options)
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """See `Opened.cost`."""

@@ -28,7 +28,7 @@ __all__ = [
     "write_study",
 ]
 
-Vary = Mapping[str, list[Any]]
+Parameters = Mapping[str, list[Any]]
 Progress = Callable[[float], None]
 
 
@@ -53,22 +53,22 @@ _PLAIN = StudyOptions()
 def run_study(
     scene: Scene,
     accuracy: Accuracy,
-    vary: Vary,
+    parameters: Parameters,
     out: Path | None,
     progress: Progress,
     options: StudyOptions,
 ) -> Report:
     """Run the study of a scene file, and write its columns and figure to a folder."""
-    if not vary:
+    if not parameters:
         raise PlanError(
             "the scene file has no study: add a table such as [study] "
             '"loading.speed" = ["1 um/s", "10 um/s"]'
         )
     if options.trials:
-        return _estimated(scene, accuracy, vary, options)
+        return _estimated(scene, accuracy, parameters, options)
     if options.stream is not None:
-        return _streamed(scene, accuracy, vary, progress, options.stream, options.workers)
-    made = made_study(scene, accuracy, vary, progress, options)
+        return _streamed(scene, accuracy, parameters, progress, options.stream, options.workers)
+    made = made_study(scene, accuracy, parameters, progress, options)
     text = "\n".join([*study_text(made), *(_definitions(made) if options.dimensionless else [])])
     if out is None:
         return Report(_columns(made), text)
@@ -81,12 +81,14 @@ def _drawn(made: Study[Any], scene: Scene, out: Path) -> list[Path]:
     return [draw_study(made, scene.name, out)]
 
 
-def _estimated(scene: Scene, accuracy: Accuracy, vary: Vary, options: StudyOptions) -> Report:
+def _estimated(
+    scene: Scene, accuracy: Accuracy, parameters: Parameters, options: StudyOptions
+) -> Report:
     """Estimate time, memory and disk of a study from a few of its points."""
     from ..studies.estimate import plan_study
 
     kind: Any = scene
-    found = plan_study(kind, vary, accuracy, trials=options.trials, workers=options.workers)
+    found = plan_study(kind, parameters, accuracy, trials=options.trials, workers=options.workers)
     numbers: dict[str, tuple[Any, str]] = {
         "n_points": (found.n_points, "-"),
         "cpu_time": (found.total_seconds, "s"),
@@ -97,13 +99,18 @@ def _estimated(scene: Scene, accuracy: Accuracy, vary: Vary, options: StudyOptio
 
 
 def _streamed(
-    scene: Scene, accuracy: Accuracy, vary: Vary, progress: Progress, path: Path, workers: int
+    scene: Scene,
+    accuracy: Accuracy,
+    parameters: Parameters,
+    progress: Progress,
+    path: Path,
+    workers: int,
 ) -> Report:
     """Write the points of a study to a file as they are solved."""
     from ..studies.stream import stream_study
 
     kind: Any = scene
-    made = stream_study(kind, vary, path, accuracy, workers=workers, progress=progress)
+    made = stream_study(kind, parameters, path, accuracy, workers=workers, progress=progress)
     failed = sum(1 for _ in made.failed())
     text = f"{made.path}: {made.n_done} points, {failed} of them without a solution"
     numbers: dict[str, tuple[Any, str]] = {
@@ -116,7 +123,7 @@ def _streamed(
 def made_study(
     scene: Scene,
     accuracy: Accuracy,
-    vary: Vary,
+    parameters: Parameters,
     progress: Progress,
     options: StudyOptions = _PLAIN,
 ) -> Study[Any]:
@@ -127,19 +134,24 @@ def made_study(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)  # the report prints every number
         made: Study[Any] = study(
-            kind, vary, accuracy, progress=progress, workers=options.workers, store=options.store
+            kind,
+            parameters,
+            accuracy,
+            progress=progress,
+            workers=options.workers,
+            store=options.store,
         )
     return made.dimensionless() if options.dimensionless else made
 
 
-def study_lines(scene: Scene, accuracy: Accuracy, vary: Vary) -> list[str]:
+def study_lines(scene: Scene, accuracy: Accuracy, parameters: Parameters) -> list[str]:
     """Check the study of a file, and say what it varies; nothing without one."""
     from ..studies.study import check_study
 
-    if not vary:
+    if not parameters:
         return []
     kind: Any = scene
-    varied = check_study(kind, vary, accuracy)
+    varied = check_study(kind, parameters, accuracy)
     n = [f"  {', '.join(axis.paths)}: {len(axis.values)} values" for axis in varied]
     return ["study, the last path fastest:", *n]
 

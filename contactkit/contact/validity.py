@@ -26,13 +26,20 @@ __all__ = ["PIXELS_PER_SPOT", "check_contact"]
 PIXELS_PER_SPOT = "pixels across a contact spot"
 """Name of the number that says how well the spots are resolved."""
 
+# Maximum pressure and area are within 6 % from 8 on, and up to 18 % off at 4: the table of
+# docs/accuracy.md, "Pixels per wave".
 _FEWEST_PER_WAVE = 8.0
+# Pressed balls, at five places between the pixels: at 4 the maximum pressure is up to 4 % off and
+# the pixel count of the area 27 %; at 2 they are 48 and 91 %, at 8 they are 1.5 and 13 %.
 _FEWEST_PER_SPOT = 4.0
+# A ball is then pressed to a contact radius of 0.31 R, where a parabola is 2.5 % lower than it.
 _HIGHEST_PRESSURE = 0.2
-_STEEPEST = 0.3
+_STEEPEST = 0.3  # the surface is then 4.4 % longer than its projection, on which it is solved
+# Of 200 maps that repeat the largest has 1.05; of 200 patches that were cut from larger maps the
+# smallest has 4.2.
 _HIGHEST_JUMP = 2.0
 _FEW = 4  # pixels in contact
-_LINES = 64
+_LINES = 64  # of a map: 8 to 64 cost the same; all at once take three times as long, and its memory
 
 
 def check_contact(

@@ -8,5 +8,6 @@ meniscus_amount  Amount of liquid that a file gives by a contact radius, or by a
 unstructure      Scene objects to tables of plain values, and the names of their kinds in files.
 csv_rows         Rows of CSV files, without formulas.
 results          Result files: npz with a JSON header, and CSV.
+curves           Saved curves: columns with their units, numbers and sources, and back.
 contact_results  Contact results as arrays and a header of plain values, and back.
 """

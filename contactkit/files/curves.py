@@ -155,6 +155,8 @@ def read_curve(path: str | Path) -> SavedCurve:
 
 def _unpacked(header: Any, columns: Arrays) -> SavedCurve:
     """The curve of a file; what is missing or of another type is refused by an error of Python."""
+    if "axis" in header:  # a file of before version 0.2 has no kind, and less in it
+        header = {"kind": "curve", "validity": [], "parts": {}, "shown": {}} | header
     if header.get("kind") != "curve":
         raise ValueError(f"it holds a {header.get('kind')!r:.40}; load_result reads results")
     units = _texts(header["units"])
@@ -186,16 +188,17 @@ def _texts(found: Mapping[str, Any]) -> dict[str, str]:
     return dict(found)
 
 
-def _number(value: Any) -> Any:
-    if value is not None and not isinstance(value, Real):
-        raise TypeError(f"a scalar is a {type(value).__name__} and no number")
-    return value
+def _number(value: Any) -> float:
+    if not isinstance(value, Real):
+        raise TypeError(f"a {type(value).__name__} is no number")
+    return value  # type: ignore[return-value]  # int and float are registered as Real
 
 
 def _validity(fields: Mapping[str, Any]) -> ValidityNumber:
     _texts({key: fields[key] for key in ("name", "detail", "source")})
     for key in ("value", "low", "high"):
-        _number(fields[key])
+        if key != "value" or fields[key] is not None:  # one that could not be evaluated
+            _number(fields[key])
     return ValidityNumber(**fields)
 
 

@@ -56,7 +56,7 @@ class SceneFile(NamedTuple, Generic[S]):
 
     scene: S
     accuracy: Accuracy
-    vary: Mapping[str, list[Any]]
+    parameters: Mapping[str, list[Any]]
 
 
 def read_scene(tables: Mapping[str, Any], kind: type[S], origin: str) -> SceneFile[S]:

@@ -17,7 +17,7 @@ separation  Separations and slidings: gap and forces, cycles, reference scales.
 film        Films on faces: pressure, liquid fraction; animations.
 curves      Any curves of a result along one axis.
 study       Studies: numbers over a parameter, bands over seeds.
-tornado     Tornado figures: which assumption moves an answer.
+tornado     Tornado figures: which assumption moves a quantity.
 cost        Error over seconds.
 gallery     Figures of the gallery: bands over seeds, colour bars, files for print.
 """

@@ -1,4 +1,4 @@
-"""Tornado figures: which assumption moves an answer, and by how much."""
+"""Tornado figures: which assumption moves a quantity, and by how much."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["tornado"]
 
 _LOW, _HIGH, _BETWEEN = "#0072b2", "#e69f00", "0.8"  # distinct to the colour-blind, and in grey
-_MISSING = 0.12  # of the width of the axis, beyond the greatest answer: room for the word
+_MISSING = 0.12  # of the width of the axis, beyond the greatest result: room for the word
 
 
 def tornado(
@@ -25,12 +25,12 @@ def tornado(
     *,
     most: int = 12,
     names: Mapping[str, str] | None = None,
-    missing: str = "no answer",
+    missing: str = "no result",
 ) -> Axes:
-    """Draw the answer over the range of each assumption, the most influential on top.
+    """Draw the quantity over the range of each assumption, the most influential on top.
 
-    A bar leads from the answer of the scene as it is to the answer at each end of the range, with
-    the value of the assumption beside it. A grey line spans the answers in between, where they
+    A bar leads from the result of the scene as it is to that at each end of the range, with
+    the value of the assumption beside it. A grey line spans the results in between, where they
     reach further.
 
     Parameters
@@ -44,7 +44,7 @@ def tornado(
     names : mapping, optional
         What to call the assumptions, by path; else the end of the path.
     missing : str
-        What it means that there is no answer, such as "never released".
+        What it means that there is no result, such as "never released".
     """
     rows = found.influences[:most]
     if ax is None:
@@ -68,7 +68,7 @@ def tornado(
     ax.set_yticks(range(len(rows)), heads)
     ax.set_ylim(len(rows) - 0.4, -0.9 if has_gaps else -0.6)
     ax.set_xlim(low / factor - 0.16 * width, end + 0.16 * width)
-    ax.set_xlabel(found.answer + ("" if unit == "-" else f" [{unit}]"))
+    ax.set_xlabel(found.quantity + ("" if unit == "-" else f" [{unit}]"))
     _legend(ax)
     return ax
 
@@ -76,15 +76,15 @@ def tornado(
 def _row(ax: Axes, i: int, one: Influence, scale: tuple[float, float, float], space: float) -> None:
     """Draw one assumption: both ends of its range, and what lies between."""
     base, end, factor = scale
-    known = [v / factor for v in one.answers if not math.isnan(v)]
+    known = [v / factor for v in one.results if not math.isnan(v)]
     span = [base, *known, *([end] if one.has_gaps else [])]
     ax.plot([min(span), max(span)], [i, i], color=_BETWEEN, lw=1.5, zorder=1)
-    for offset, value, answer, color in (
-        (-0.2, one.values[0], one.answers[0], _LOW),
-        (0.2, one.values[-1], one.answers[-1], _HIGH),
+    for offset, value, result, color in (
+        (-0.2, one.values[0], one.results[0], _LOW),
+        (0.2, one.values[-1], one.results[-1], _HIGH),
     ):
-        to = end if math.isnan(answer) else answer / factor
-        style: dict[str, Any] = {"hatch": "////", "alpha": 0.5} if math.isnan(answer) else {}
+        to = end if math.isnan(result) else result / factor
+        style: dict[str, Any] = {"hatch": "////", "alpha": 0.5} if math.isnan(result) else {}
         ax.barh(i + offset, to - base, 0.36, left=base, color=color, zorder=2, **style)
         side = -1.0 if to < base else 1.0
         ax.annotate(

@@ -14,6 +14,7 @@ loading              Imposed speed, force or time; pressing or approach; sliding
 effect               Base class of all effects, and their registry.
 scenes               Contact, separation and sliding: interface, loading and effects.
 plan                 Base class of all plans.
+answer               Base class of results, curves and studies: numbers, sources, figures, a file.
 result               Base class of all results.
 scales               Reference scales of a result.
 curve                Curves: columns over one axis, each with its unit, and the numbers that follow.

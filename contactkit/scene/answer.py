@@ -11,7 +11,7 @@ __all__ = ["Answer"]
 
 
 class Answer(Tabular):
-    """What a computation returns: `status`, `scalars`, `cite`, `save`, `plot`, and `print`.
+    """Outcome of a computation: `status`, `scalars`, `cite`, `save`, `plot`, and `print`.
 
     Results of one scene, curves along an axis and studies over parameters share these; `to_xarray`
     and `to_dataframe` have their columns.

@@ -134,7 +134,7 @@ def angles(name: str, given: Any) -> tuple[Array, Array]:
     return found[0], found[1]
 
 
-def plain(values: Any) -> Any:
+def plain(values: Any) -> float | Array:
     """Return a float for an array without axes, else the array."""
     found = np.asarray(values)
     return found if found.ndim else float(found)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from ..capillary.exact.at_pressure import bridge_at_pressure
 from ..capillary.exact.bridge import bridge
@@ -23,9 +23,36 @@ from .arguments import (
 )
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    Angles = float | str | tuple[float | str, float | str]
 
 __all__ = ["bridge_force", "capillary_force"]
+
+
+@overload
+def capillary_force(
+    radius: float | str,
+    relative_humidity: float | str,
+    *,
+    gap: float | str = ...,
+    liquid: Liquid | str = ...,
+    contact_angles: Angles = ...,
+    temperature: float | str = ...,
+) -> float: ...
+
+
+@overload
+def capillary_force(
+    radius: ArrayLike | str,
+    relative_humidity: ArrayLike | str,
+    *,
+    gap: ArrayLike | str = ...,
+    liquid: Liquid | str = ...,
+    contact_angles: Any = ...,
+    temperature: float | str = ...,
+) -> float | NDArray[np.float64]: ...
 
 
 def capillary_force(
@@ -36,7 +63,7 @@ def capillary_force(
     liquid: Liquid | str = "water",
     contact_angles: Any = 0.0,
     temperature: float | str = 293.15,
-) -> Any:
+) -> float | NDArray[np.float64]:
     r"""Capillary force between a sphere and a flat in equilibrium with humid air [N].
 
     .. math:: F = \pi \gamma a (1 + e), \qquad p = \frac{R T}{v} \ln H
@@ -102,6 +129,30 @@ def capillary_force(
     return plain(tension * state.force)
 
 
+@overload
+def bridge_force(
+    radius: float | str,
+    volume: float | str,
+    *,
+    surface_tension: float | str,
+    gap: float | str = ...,
+    contact_angles: Angles = ...,
+    lower_radius: float | str = ...,
+) -> float: ...
+
+
+@overload
+def bridge_force(
+    radius: ArrayLike | str,
+    volume: ArrayLike | str,
+    *,
+    surface_tension: ArrayLike | str,
+    gap: ArrayLike | str = ...,
+    contact_angles: Any = ...,
+    lower_radius: ArrayLike | str = ...,
+) -> float | NDArray[np.float64]: ...
+
+
 def bridge_force(
     radius: ArrayLike | str,
     volume: ArrayLike | str,
@@ -110,7 +161,7 @@ def bridge_force(
     gap: ArrayLike | str = 0.0,
     contact_angles: Any = 0.0,
     lower_radius: ArrayLike | str = math.inf,
-) -> Any:
+) -> float | NDArray[np.float64]:
     r"""Force of a liquid bridge of given volume between two spheres, or sphere and flat [N].
 
     .. math:: F = 2\pi r \gamma \sin\varphi - \pi r^2 p = \pi \gamma a (1 + e)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 
@@ -12,9 +12,35 @@ from ..lubrication.squeeze_film import disc_impulse_conserved, disc_impulse_floo
 from .arguments import check_shapes, plain, positive, positive_or_inf
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
 __all__ = ["squeeze_time"]
+
+Closure = Literal["flooded", "volume-conserving"]
+
+
+@overload
+def squeeze_time(
+    force: float | str,
+    radius: float | str,
+    viscosity: float | str,
+    initial_gap: float | str,
+    final_gap: float | str = ...,
+    *,
+    closure: Closure = ...,
+) -> float: ...
+
+
+@overload
+def squeeze_time(
+    force: ArrayLike | str,
+    radius: ArrayLike | str,
+    viscosity: ArrayLike | str,
+    initial_gap: ArrayLike | str,
+    final_gap: ArrayLike | str = ...,
+    *,
+    closure: Closure = ...,
+) -> float | NDArray[np.float64]: ...
 
 
 def squeeze_time(
@@ -24,8 +50,8 @@ def squeeze_time(
     initial_gap: ArrayLike | str,
     final_gap: ArrayLike | str = math.inf,
     *,
-    closure: Literal["flooded", "volume-conserving"] = "flooded",
-) -> Any:
+    closure: Closure = "flooded",
+) -> float | NDArray[np.float64]:
     r"""Time that a constant force takes to move round flats through a viscous film [s].
 
     .. math:: t = \frac{1}{F} \left|\int F_v \, dt\right|

@@ -1,7 +1,7 @@
 """Parameter studies on processes or a cluster.
 
 study        `study`: a scene solved over a grid of parameter values.
-sensitivity  `sensitivity`: what each assumption does to an answer over its plausible range.
+sensitivity  `sensitivity`: what each assumption does to a quantity over its plausible range.
 table        The result of a study: points, columns, table and file.
 stream       `stream_study`: a study of many points, written to a file as they are solved.
 study_file   File of such a study, a SQLite database, read column by column.

@@ -14,7 +14,7 @@ from ..accuracy import Accuracy
 from ..errors import ContactkitError
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..units import quantity_text
-from .paths import Vary, values_at
+from .paths import Parameters, values_at
 from .run import Done, Piece, Task, run_piece
 from .stream import check_axes
 from .study import check_whole
@@ -104,7 +104,7 @@ class StudyPlan(NamedTuple):
 
 def plan_study(
     scene: ContactScene | SeparationScene | SlidingScene,
-    vary: Vary,
+    parameters: Parameters,
     accuracy: Accuracy | None = None,
     *,
     trials: int = 5,
@@ -114,7 +114,7 @@ def plan_study(
 
     Parameters
     ----------
-    scene, vary, accuracy
+    scene, parameters, accuracy
         As in `study`, and checked in the same way.
     trials : int
         Points that are solved for the estimate, spread evenly over the study.
@@ -156,7 +156,7 @@ def plan_study(
     check_whole("trials", trials, 1)
     check_whole("workers", workers, 1)
     accuracy = accuracy if accuracy is not None else Accuracy.standard
-    varied = check_axes(scene, vary, accuracy)
+    varied = check_axes(scene, parameters, accuracy)
     n_points = math.prod(len(axis.values) for axis in varied)
     n = min(trials, n_points)
     places = sorted({round(i * (n_points - 1) / max(n - 1, 1)) for i in range(n)})

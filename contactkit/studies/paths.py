@@ -21,7 +21,7 @@ __all__ = [
     "Axis",
     "Changed",
     "Scene",
-    "Vary",
+    "Parameters",
     "axes",
     "changed",
     "check_apart",
@@ -49,7 +49,7 @@ class Axis(NamedTuple):
     units: tuple[str, ...]
 
 
-Vary = (
+Parameters = (
     Mapping[str, Iterable[Any]]
     | Mapping[tuple[str, ...], Iterable[Any]]
     | Mapping[str | tuple[str, ...], Iterable[Any]]
@@ -64,8 +64,8 @@ class _Owner(NamedTuple):
     field: str
 
 
-def axes(scene: object, accuracy: Accuracy, vary: Vary) -> tuple[Axis, ...]:
-    """Parse the parameters to vary.
+def axes(scene: object, accuracy: Accuracy, parameters: Parameters) -> tuple[Axis, ...]:
+    """Parse the parameters of a study.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def axes(scene: object, accuracy: Accuracy, vary: Vary) -> tuple[Axis, ...]:
         The scene that the paths refer to.
     accuracy : Accuracy
         The settings that paths beginning with ``accuracy.`` refer to.
-    vary : mapping of str or tuple of str to sequence
+    parameters : mapping of str or tuple of str to sequence
         Values by dotted path, such as ``interface.lower.solid.layers.0.thickness`` (an index for an
         item of a tuple) or ``effects.friction-traction.coefficient`` (an effect by its name). With
         the name of an effect alone, false leaves the effect out and true keeps it.
@@ -98,11 +98,13 @@ def axes(scene: object, accuracy: Accuracy, vary: Vary) -> tuple[Axis, ...]:
     >>> axes(scene, ck.Accuracy(), {thickness: ["5 nm", 1e-8]})[0].values
     ((5e-09,), (1e-08,))
     """
-    if not isinstance(vary, Mapping) or not vary:
-        raise DescriptionError("vary", vary, "name at least one field and its values")
-    found = tuple(_axis(scene, accuracy, joined(key, "vary"), v) for key, v in vary.items())
-    check_limit("POINTS", math.prod(len(axis.values) for axis in found), "the study", "vary")
-    check_apart([path for axis in found for path in axis.paths], "vary")
+    if not isinstance(parameters, Mapping) or not parameters:
+        raise DescriptionError("parameters", parameters, "name at least one field and its values")
+    found = tuple(
+        _axis(scene, accuracy, joined(key, "parameters"), v) for key, v in parameters.items()
+    )
+    check_limit("POINTS", math.prod(len(axis.values) for axis in found), "the study", "parameters")
+    check_apart([path for axis in found for path in axis.paths], "parameters")
     return found
 
 
@@ -233,12 +235,12 @@ def _rebuilt(owner: Any, tree: Tree | _Leaf) -> Any:
 
 def _axis(scene: object, accuracy: Accuracy, key: str, values: Iterable[Any]) -> Axis:
     paths = tuple(path.strip() for path in key.split(","))
-    owners = [_owner(scene, accuracy, path, "vary") for path in paths]
+    owners = [_owner(scene, accuracy, path, "parameters") for path in paths]
     if isinstance(values, str | bytes | Mapping) or not isinstance(values, Iterable):
-        raise DescriptionError(f"vary[{key!r}]", values, "be a sequence of values")
+        raise DescriptionError(f"parameters[{key!r}]", values, "be a sequence of values")
     given = list(values)
     if not given:
-        raise DescriptionError(f"vary[{key!r}]", given, "have at least one value")
+        raise DescriptionError(f"parameters[{key!r}]", given, "have at least one value")
     rows = [(value,) for value in given] if len(paths) == 1 else _rows(key, given, len(paths))
     columns = [[_value(owner, row[i]) for row in rows] for i, owner in enumerate(owners)]
     return Axis(paths, tuple(zip(*columns, strict=True)), tuple(map(_unit, owners)))
@@ -249,7 +251,7 @@ def _rows(key: str, given: list[Any], n: int) -> list[tuple[Any, ...]]:
     for row in given:
         if not isinstance(row, list | tuple) or len(row) != n:
             raise DescriptionError(
-                f"vary[{key!r}]", row, f"be a row of {n} values, one for each path"
+                f"parameters[{key!r}]", row, f"be a row of {n} values, one for each path"
             )
     return [tuple(row) for row in given]
 
@@ -280,7 +282,7 @@ def value_at(scene: object, accuracy: Accuracy, path: str) -> Any:
     >>> value_at(ck.Meniscus(liquid=ck.load_liquid("water")), ck.Accuracy(), "liquid.name")
     'water'
     """
-    return _walk(scene, accuracy, path, "vary")[1]
+    return _walk(scene, accuracy, path, "parameters")[1]
 
 
 def _owner(scene: object, accuracy: Accuracy | None, path: str, origin: str) -> _Owner:

@@ -1,4 +1,4 @@
-"""Sensitivity of an answer to the assumptions behind it, one at a time over its plausible range."""
+"""Sensitivity of a quantity to the assumptions behind it, one at a time over its range."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Influence:
         Value in the scene as it is; that of the first path.
     values : tuple
         Values from the low to the high end; those of the first path.
-    answers : tuple of float
+    results : tuple of float
         Answer at each value; nan where there is none.
     messages : tuple of str
         Why there is none; empty elsewhere.
@@ -79,22 +79,22 @@ class Influence:
     unit: str
     base: Any
     values: tuple[Any, ...]
-    answers: tuple[float, ...]
+    results: tuple[float, ...]
     messages: tuple[str, ...] = field(repr=False)
     reason: str = ""
 
     @property
     def has_gaps(self) -> bool:
-        """Whether there is no answer somewhere in the range."""
-        return any(map(math.isnan, self.answers))
+        """Whether there is no result somewhere in the range."""
+        return any(map(math.isnan, self.results))
 
     def extent(self, base: float) -> tuple[float, float]:
-        """Least and greatest answer over the range, that of the scene as it is among them."""
-        known = [one for one in (base, *self.answers) if not math.isnan(one)]
+        """Least and greatest result over the range, that of the scene as it is among them."""
+        known = [one for one in (base, *self.results) if not math.isnan(one)]
         return (min(known), max(known)) if known else (math.nan, math.nan)
 
     def swing(self, base: float) -> float:
-        """Greatest less least answer; infinite where there is none somewhere in the range."""
+        """Greatest less least result; infinite where there is none somewhere in the range."""
         low, high = self.extent(base)
         return math.inf if self.has_gaps else high - low
 
@@ -105,16 +105,16 @@ class Sensitivity(Tabular):
 
     Attributes
     ----------
-    answer, unit : str
-        Name of the answer, and its unit.
+    quantity, unit : str
+        Name of the quantity, and its unit.
     base : float
         Answer of the scene as it is.
     influences : tuple of Influence
-        One for each assumption, sorted by the change of the answer over its range; first those
-        with a value for which there is no answer.
+        One for each assumption, sorted by the change of the quantity over its range; first those
+        with a value for which there is no result.
     """
 
-    answer: str
+    quantity: str
     unit: str
     base: float
     influences: tuple[Influence, ...] = field(repr=False)
@@ -133,8 +133,8 @@ class Sensitivity(Tabular):
         return known[path]
 
     def table(self) -> str:
-        """Return the assumptions with their ranges and the answers at both ends as text."""
-        heads = ("assumption", "low", "as it is", "high", "answer low", "high", "change")
+        """Return the assumptions with their ranges and the results at both ends as text."""
+        heads = ("assumption", "low", "as it is", "high", "result low", "high", "change")
         rows = [heads, *(self._cells(one) for one in self.influences)]
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
         lines = [
@@ -145,15 +145,15 @@ class Sensitivity(Tabular):
             for row in rows
         ]
         missing = [f"{one.path}: {text}" for one in self.influences for text in _first(one)]
-        return "\n".join([f"{self.answer} = {self._text(self.base)}", *lines, *missing])
+        return "\n".join([f"{self.quantity} = {self._text(self.base)}", *lines, *missing])
 
     def _cells(self, one: Influence) -> tuple[str, ...]:
         values = (one.values[0], one.base, one.values[-1])
-        answers = (one.answers[0], one.answers[-1], one.swing(self.base))
-        return (one.path, *(value_text(v, one.unit) for v in values), *map(self._text, answers))
+        results = (one.results[0], one.results[-1], one.swing(self.base))
+        return (one.path, *(value_text(v, one.unit) for v in values), *map(self._text, results))
 
-    def _text(self, answer: float) -> str:
-        return quantity_text(answer, self.unit) if math.isfinite(answer) else "none"
+    def _text(self, result: float) -> str:
+        return quantity_text(result, self.unit) if math.isfinite(result) else "none"
 
     def __str__(self) -> str:
         """Return the table."""
@@ -164,7 +164,7 @@ class Sensitivity(Tabular):
         return f"<pre>{escape(self.table())}</pre>"
 
     def contents(self) -> Contents:
-        """Return assumptions, their ranges as text and the answers at the ends and extremes."""
+        """Return assumptions, their ranges as text and the results at the ends and extremes."""
         rows, axis = self.influences, ("assumption",)
         ends = np.array([one.extent(self.base) for one in rows]).reshape(-1, 2)
 
@@ -177,41 +177,41 @@ class Sensitivity(Tabular):
             "low": texts(one.values[0] for one in rows),
             "as_it_is": texts(one.base for one in rows),
             "high": texts(one.values[-1] for one in rows),
-            "answer_low": Quantity(axis, np.array([o.answers[0] for o in rows]), self.unit),
-            "answer_high": Quantity(axis, np.array([o.answers[-1] for o in rows]), self.unit),
-            "least": Quantity(axis, ends[:, 0], self.unit, "least answer in the range"),
-            "greatest": Quantity(axis, ends[:, 1], self.unit, "greatest answer in the range"),
+            "result_low": Quantity(axis, np.array([o.results[0] for o in rows]), self.unit),
+            "result_high": Quantity(axis, np.array([o.results[-1] for o in rows]), self.unit),
+            "least": Quantity(axis, ends[:, 0], self.unit, "least result in the range"),
+            "greatest": Quantity(axis, ends[:, 1], self.unit, "greatest result in the range"),
             "reason": Quantity(axis, np.array([one.reason for one in rows]), "-"),
-            "answer": Quantity((), self.base, self.unit, self.answer),
+            "base": Quantity((), self.base, self.unit, self.quantity),
         }
-        return Contents(axis, found, {"title": f"sensitivity of {self.answer}"})
+        return Contents(axis, found, {"title": f"sensitivity of {self.quantity}"})
 
     def save_csv(self, path: str | Path) -> Path:
-        """Write every answer to a CSV file, a row for each value, atomically.
+        """Write every result to a CSV file, a row for each value, atomically.
 
         Parameters
         ----------
         path : str or Path
             The file; its suffix becomes ``.csv``.
         """
-        heads = ("assumption", "value", "value_unit", f"{self.answer} [{self.unit}]")
+        heads = ("assumption", "value", "value_unit", f"{self.quantity} [{self.unit}]")
         rows = [["as it is", "", "", f"{self.base:.6g}", "", ""]]
         for one in self.influences:
-            for value, found, message in zip(one.values, one.answers, one.messages, strict=True):
+            for value, found, message in zip(one.values, one.results, one.messages, strict=True):
                 shown = f"{value:.6g}" if isinstance(value, float) else value_text(value, "-")
                 rows.append([one.path, shown, one.unit, f"{found:.6g}", message, one.reason])
         return write_rows(Path(path).with_suffix(".csv"), [*heads, "message", "reason"], rows)
 
 
 def _first(one: Influence) -> list[str]:
-    """First reason why there is no answer."""
+    """First reason why there is no result."""
     return [text for text in one.messages if text][:1]
 
 
 def sensitivity(
     scene: Any,
     ranges: Mapping[Any, Range | tuple[Any, Any]],
-    answer: str | Callable[[Any], float],
+    quantity: str | Callable[[Any], float],
     accuracy: Accuracy | None = None,
     *,
     n: int = 2,
@@ -229,20 +229,20 @@ def sensitivity(
         Plausible range by the dotted path of the assumption, as in `study`: ``loading.mass``,
         ``effects.tension-limit.strength``. Paths that vary together are one key, a tuple or one
         text with commas, with tuples as ends. A pair ``(low, high)`` is a range without a reason.
-    answer : str or callable
+    quantity : str or callable
         The number that is asked for: the name of one of the result, such as ``peak_force``; or a
         function of a scene that returns it, nan where there is none, which also takes the scenes
         of devices.
     accuracy : Accuracy, optional
-        Numerical settings, for an answer by name.
+        Numerical settings, for a quantity by name.
     n : int
-        Values from end to end, at least 2. More than the ends show an answer that is not
+        Values from end to end, at least 2. More than the ends show a quantity that is not
         monotonic; they are spaced by ratios in a range of more than a decade, evenly in others.
         Whole numbers, names and paths that vary together have the ends alone.
     unit : str, optional
-        Unit of the answer of a function, whose name is that of the answer; ``-`` if not given.
+        Unit of the quantity of a function, whose name is that of the quantity; ``-`` if not given.
     workers : int
-        Number of processes, for an answer by name.
+        Number of processes, for a quantity by name.
     progress : callable, optional
         Called with the completed fraction, 0 to 1.
 
@@ -255,9 +255,9 @@ def sensitivity(
     Raises
     ------
     DescriptionError
-        If a path, a range or the answer does not exist, or something is given that is not used.
+        If a path, a range or the quantity does not exist, or something is given that is not used.
     PlanError
-        If the effects do not fit the scene, for an answer by name.
+        If the effects do not fit the scene, for a quantity by name.
 
     Examples
     --------
@@ -286,39 +286,39 @@ def sensitivity(
     base = dict(zip(paths, chain(*(one.base for one in assumptions)), strict=True))
     rows = [base]
     rows += [base | dict(zip(o.paths, row, strict=True)) for o in assumptions for row in o.rows]
-    if isinstance(answer, str):
+    if isinstance(quantity, str):
         _unused(unit=unit)
         run = partial(study, workers=workers, progress=progress)
-        made, unit = _studied(scene, rows, answer, partial(run, accuracy=accuracy))
-        answers = made.column(answer).tolist()
+        made, unit = _studied(scene, rows, quantity, partial(run, accuracy=accuracy))
+        results = made.column(quantity).tolist()
         messages = [point.message if point.has_failed else "" for point in made.points]
-        return _collected(assumptions, answers, messages, (answer, unit))
+        return _collected(assumptions, results, messages, (quantity, unit))
     _unused(accuracy=accuracy, workers=None if workers == 1 else workers)
-    answers, messages = _asked(scene, rows, answer, progress)
-    name = getattr(answer, "__name__", "answer").replace("_", " ")
-    return _collected(assumptions, answers, messages, (name, unit or "-"))
+    results, messages = _asked(scene, rows, quantity, progress)
+    name = getattr(quantity, "__name__", "quantity").replace("_", " ")
+    return _collected(assumptions, results, messages, (name, unit or "-"))
 
 
 def _studied(
-    scene: Any, rows: list[dict[str, Any]], answer: str, run: Callable[..., Study[Any]]
+    scene: Any, rows: list[dict[str, Any]], quantity: str, run: Callable[..., Study[Any]]
 ) -> tuple[Study[Any], str]:
-    """One study of all rows, and the unit of the answer."""
+    """One study of all rows, and the unit of the quantity."""
     if not isinstance(scene, ContactScene | SeparationScene | SlidingScene):
-        expected = f"be a function for a {type(scene).__name__}, whose answers have no names"
-        raise DescriptionError("answer", answer, expected)
+        expected = f"be a function for a {type(scene).__name__}, whose results have no names"
+        raise DescriptionError("quantity", quantity, expected)
     paths = list(rows[0])
     values = [tuple(row.values()) if len(paths) > 1 else row[paths[0]] for row in rows]
     made = run(scene, {", ".join(paths): values})
     names = [name for name in made.units if name not in paths]
-    if answer not in names:
+    if quantity not in names:
         expected = "be a number of the result"
-        raise DescriptionError("answer", answer, expected, hint=nearest(answer, names))
-    return made, made.unit(answer)
+        raise DescriptionError("quantity", quantity, expected, hint=nearest(quantity, names))
+    return made, made.unit(quantity)
 
 
 def _collected(
     assumptions: list[_Assumption],
-    answers: list[float],
+    results: list[float],
     messages: list[str],
     named: tuple[str, str],
 ) -> Sensitivity:
@@ -326,9 +326,9 @@ def _collected(
     found, at = [], 1
     for one in assumptions:
         end = at + len(one.rows)
-        found.append(one.influence(tuple(answers[at:end]), tuple(messages[at:end])))
+        found.append(one.influence(tuple(results[at:end]), tuple(messages[at:end])))
         at = end
-    base = answers[0]
+    base = results[0]
     found.sort(key=lambda one: -one.swing(base))
     return Sensitivity(*named, base, tuple(found))
 
@@ -347,8 +347,8 @@ def _checked(ranges: Mapping[Any, Range | tuple[Any, Any]], n: int) -> dict[str,
 
 
 def _unused(**given: object) -> None:
-    """Refuse what the kind of answer does not use."""
-    cure = "accuracy and workers belong to an answer by its name, unit to a function"
+    """Refuse what the kind of quantity does not use."""
+    cure = "accuracy and workers belong to a quantity by its name, unit to a function"
     for name, value in given.items():
         if value is not None:
             raise DescriptionError(name, value, "be left out", hint=cure)
@@ -367,9 +367,9 @@ class _Assumption:
         if len(axis.paths) == 1 and isinstance(low, float) and isinstance(high, float):
             self.rows = [(value,) for value in _between(low, high, n)]
 
-    def influence(self, answers: tuple[float, ...], messages: tuple[str, ...]) -> Influence:
+    def influence(self, results: tuple[float, ...], messages: tuple[str, ...]) -> Influence:
         values = tuple(row[0] for row in self.rows)
-        return Influence(self.path, self.unit, self.base[0], values, answers, messages, self.reason)
+        return Influence(self.path, self.unit, self.base[0], values, results, messages, self.reason)
 
 
 def _between(low: float, high: float, n: int) -> list[float]:
@@ -384,21 +384,21 @@ def _between(low: float, high: float, n: int) -> list[float]:
 def _asked(
     scene: Any,
     rows: list[dict[str, Any]],
-    answer: Callable[[Any], float],
+    quantity: Callable[[Any], float],
     progress: Callable[[float], None] | None,
 ) -> tuple[list[float], list[str]]:
     """Answers of a function, and why there are none."""
-    if not callable(answer):
-        raise DescriptionError("answer", answer, "be the name of a number, or a function")
+    if not callable(quantity):
+        raise DescriptionError("quantity", quantity, "be the name of a number, or a function")
     scenes = [changed(scene, Accuracy.standard, row).scene for row in rows]
-    answers, messages = list[float](), list[str]()
+    results, messages = list[float](), list[str]()
     for i, one in enumerate(scenes):
         try:
-            found, message = float(answer(one)), ""
+            found, message = float(quantity(one)), ""
         except ContactkitError as error:
             found, message = math.nan, str(error)
-        answers.append(found)
+        results.append(found)
         messages.append(message)
         if progress is not None:
             progress((i + 1) / len(scenes))
-    return answers, messages
+    return results, messages

@@ -16,7 +16,7 @@ from ..accuracy import Accuracy
 from ..contact.chain import downwards
 from ..errors import ContactkitError, ValidityWarning
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
-from .paths import Axis, Scene, Vary, axes, changed, values_at
+from .paths import Axis, Parameters, Scene, axes, changed, values_at
 from .run import Done, Piece, Task
 from .study import RETRIES, check_effects, check_kind, check_whole, slots, spread
 from .study_file import StudyFile, StudyWriter
@@ -30,7 +30,7 @@ _PIECE = 256
 
 def stream_study(
     scene: ContactScene | SeparationScene | SlidingScene,
-    vary: Vary,
+    parameters: Parameters,
     path: str | Path,
     accuracy: Accuracy | None = None,
     *,
@@ -47,7 +47,7 @@ def stream_study(
 
     Parameters
     ----------
-    scene, vary, accuracy, workers, client, progress
+    scene, parameters, accuracy, workers, client, progress
         As in `study`.
     path : str or Path
         The file; its suffix becomes ``.sqlite``. An existing file must be of the same study.
@@ -92,17 +92,17 @@ def stream_study(
     ...     loading=ck.ImposedTime(time=1e-3, initial_gap=4e-6, final_gap=1e-5),
     ...     effects=(ck.ViscousForce(),),
     ... )
-    >>> vary = {"loading.initial_gap": ["4 um", "5 um"], "loading.time": ["1 ms", "2 ms"]}
+    >>> parameters = {"loading.initial_gap": ["4 um", "5 um"], "loading.time": ["1 ms", "2 ms"]}
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     with warnings.catch_warnings(action="ignore"):
-    ...         done = ck.stream_study(scene, vary, f"{folder}/oil.sqlite")
+    ...         done = ck.stream_study(scene, parameters, f"{folder}/oil.sqlite")
     ...     done, done.column("viscous_impulse").round(6).tolist()
     (StudyFile('oil.sqlite', 4 of 4 points), [0.004543, 0.004543, 0.00179, 0.00179])
     """
     check_whole("workers", workers, 1)
     check_whole("retries", retries, 0)
     accuracy = accuracy if accuracy is not None else Accuracy.standard
-    varied = check_axes(scene, vary, accuracy)
+    varied = check_axes(scene, parameters, accuracy)
     n_points = math.prod(len(axis.values) for axis in varied)
     n_slots = slots(client, workers)
     with StudyWriter(path, scene, accuracy, varied) as writer:
@@ -131,7 +131,7 @@ def stream_study(
     return StudyFile(writer.path)
 
 
-def check_axes(scene: Scene, vary: Vary, accuracy: Accuracy) -> tuple[Axis, ...]:
+def check_axes(scene: Scene, parameters: Parameters, accuracy: Accuracy) -> tuple[Axis, ...]:
     """Parse the parameters and check each value, with the first values of the others.
 
     Raises
@@ -140,7 +140,7 @@ def check_axes(scene: Scene, vary: Vary, accuracy: Accuracy) -> tuple[Axis, ...]
         As `study` does.
     """
     check_kind(scene)
-    varied = axes(scene, accuracy, vary)
+    varied = axes(scene, accuracy, parameters)
     first = values_at(varied, 0)
     for axis in varied:
         for row in axis.values:

@@ -10,7 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
-from attrs import evolve
+from attrs import evolve, fields, has
 
 from ..accuracy import Accuracy
 from ..contact.chain import downwards
@@ -27,7 +27,7 @@ from ..planning import plan
 from ..scene.plan import ScenePlan
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..scene.scenes import Scene as AnyScene
-from .paths import Axis, Scene, Vary, axes, changed, combinations
+from .paths import Axis, Parameters, Scene, axes, changed, combinations
 from .run import Done, Piece, Task, put
 from .spread import run_here, run_in_processes, run_on_client
 from .store import Store, StudyPoint
@@ -61,7 +61,7 @@ __all__ = [
 @overload
 def study(
     scene: ContactScene,
-    vary: Vary,
+    parameters: Parameters,
     accuracy: Accuracy | None = ...,
     *,
     store: str | Path | None = ...,
@@ -75,7 +75,7 @@ def study(
 @overload
 def study(
     scene: SeparationScene,
-    vary: Vary,
+    parameters: Parameters,
     accuracy: Accuracy | None = ...,
     *,
     store: str | Path | None = ...,
@@ -89,7 +89,7 @@ def study(
 @overload
 def study(
     scene: SlidingScene,
-    vary: Vary,
+    parameters: Parameters,
     accuracy: Accuracy | None = ...,
     *,
     store: str | Path | None = ...,
@@ -102,7 +102,7 @@ def study(
 
 def study(
     scene: ContactScene | SeparationScene | SlidingScene,
-    vary: Vary,
+    parameters: Parameters,
     accuracy: Accuracy | None = None,
     *,
     store: str | Path | None = None,
@@ -117,7 +117,7 @@ def study(
     ----------
     scene : ContactScene, SeparationScene or SlidingScene
         The scene, with its constant parameters.
-    vary : mapping of str or tuple of str to sequence
+    parameters : mapping of str or tuple of str to sequence
         Values by the dotted path of a field: ``loading.pressure``,
         ``interface.lower.solid.layers.0.thickness``, ``effects.friction-traction.coefficient``,
         ``accuracy.rtol``. Quantities may be texts with a unit, solids and liquids names of the
@@ -182,7 +182,7 @@ def study(
     check_kind(scene)
     check_whole("workers", workers, 1)
     accuracy = accuracy if accuracy is not None else Accuracy.standard
-    varied = axes(scene, accuracy, vary)
+    varied = axes(scene, accuracy, parameters)
     kept = Store(Path(store).resolve()) if store is not None else None
     run = _Run(scene, accuracy, varied, kept, keep_maps, progress, RETRIES)
     pieces = run.pieces(slots(client, workers))
@@ -207,10 +207,10 @@ def check_whole(name: str, value: object, least: int) -> None:
 
 def check_study(
     scene: ContactScene | SeparationScene | SlidingScene,
-    vary: Vary,
+    parameters: Parameters,
     accuracy: Accuracy | None = None,
 ) -> tuple[Axis, ...]:
-    """Refuse what `study` refuses before any solve, and return the parameters that vary.
+    """Refuse what `study` refuses before any solve, and return them parsed.
 
     Raises
     ------
@@ -218,16 +218,20 @@ def check_study(
         As `study` does.
     """
     accuracy = accuracy if accuracy is not None else Accuracy.standard
-    varied = axes(scene, accuracy, vary)
+    varied = axes(scene, accuracy, parameters)
     points = [changed(scene, accuracy, values) for values in combinations(varied)]
     check_effects(*points[0])
     return varied
 
 
-def check_effects(scene: Scene, accuracy: Accuracy) -> None:
-    """Refuse effects that do not fit the scene of a point, but no load: that is of this point."""
+def check_effects(scene: Scene, accuracy: Accuracy) -> tuple[str, ...]:
+    """Refuse effects that do not fit the scene of a point, but no load: that is of this point.
+
+    Returns the sources of the others; none where there is no plan.
+    """
     with suppress(InfeasibleError):
-        _unprepared(scene, accuracy)
+        return tuple(_unprepared(scene, accuracy).cite().splitlines())
+    return ()
 
 
 def _unprepared(scene: Scene, accuracy: Accuracy) -> ScenePlan:
@@ -258,6 +262,7 @@ class _Run:
         self.points: dict[int, StudyPoint] = {}
         self.results: dict[int, AnyResult] = {}
         self.problems: dict[int, str] = {}  # with the files of points
+        self.sources: dict[tuple[object, ...], tuple[str, ...]] = {}  # by choices
         if store is not None:
             store.sweep()
             for task in self.tasks:
@@ -310,7 +315,8 @@ class _Run:
     def check(self, pieces: list[Piece]) -> None:
         """Refuse effects that do not fit the scene before any solve, and report progress."""
         if pieces:
-            check_effects(*changed(self.scene, self.accuracy, pieces[0].tasks[0].values))
+            scene, accuracy = changed(self.scene, self.accuracy, pieces[0].tasks[0].values)
+            self.sources[_choices(scene)] = check_effects(scene, accuracy)
         if self.progress is not None and (self.points or not pieces):
             self.progress(len(self.points) / len(self.tasks))
 
@@ -352,16 +358,32 @@ class _Run:
         )
 
     def _sources(self) -> tuple[str, ...]:
-        """Sources of the first point, or of all where effects vary; none of what has no plan."""
-        places = range(len(self.tasks))
-        if not any(path.startswith("effects") for axis in self.varied for path in axis.paths):
-            places = range(1)
-        found = dict[str, None]()
-        for i in places:
-            with suppress(ContactkitError):
-                made = changed(self.scene, self.accuracy, self.tasks[i].values)
-                found |= dict.fromkeys(_unprepared(*made).cite().splitlines())
-        return tuple(found)
+        """Sources of all points; those with the same choices have the same."""
+        for task in self.tasks if self._varies_effects else self.tasks[:1]:
+            scene, accuracy = changed(self.scene, self.accuracy, task.values)
+            if (choices := _choices(scene)) not in self.sources:
+                with suppress(ContactkitError):  # a point that is refused has no plan
+                    self.sources[choices] = check_effects(scene, accuracy)
+        return tuple(dict.fromkeys(line for one in self.sources.values() for line in one))
+
+    @property
+    def _varies_effects(self) -> bool:
+        return any(path.startswith("effects") for axis in self.varied for path in axis.paths)
+
+
+def _choices(scene: Scene) -> tuple[object, ...]:
+    """What decides the equations of a scene: the kinds of its effects and their choices."""
+    return tuple(_choice(one) for one in (type(scene), *scene.effects))
+
+
+def _choice(value: object) -> object:
+    """A word as it is, a number for any other, an object by its kind and its own choices."""
+    if value is None or isinstance(value, str | bool | type):
+        return value
+    kind = type(value)
+    if not has(kind):
+        return kind
+    return (kind, *(_choice(getattr(value, one.name)) for one in fields(kind)))
 
 
 def _warn(points: list[StudyPoint]) -> None:

@@ -249,8 +249,8 @@ class Study(Answer, Generic[R_co]):
         ...     loading=ck.Pressing(pressure=1e8),
         ...     effects=(ck.HalfSpace(),),
         ... )
-        >>> vary = {"interface.upper.surface.seed": [1, 2, 3], "loading.pressure": [5e7, 1e8]}
-        >>> found = ck.study(scene, vary, ck.Accuracy(grid=64)).bands()
+        >>> parameters = {"interface.upper.surface.seed": [1, 2, 3], "loading.pressure": [5e7, 1e8]}
+        >>> found = ck.study(scene, parameters, ck.Accuracy(grid=64)).bands()
         >>> [found.column(f"contact_fraction{end}").shape for end in ("", "_low", "_high")]
         [(2,), (2,), (2,)]
         """

@@ -20,7 +20,7 @@ ROOT = SCRIPTS.parents[1]
 
 
 class Page(NamedTuple):
-    """What is written below docs/, the minutes it takes on one core, and the commands."""
+    """Files that are written below docs/, the minutes it takes on one core, and the commands."""
 
     writes: str
     minutes: float

@@ -72,8 +72,8 @@ def table(found: Sensitivity, names: Mapping[str, str]) -> str:
         (
             names[one.path],
             f"{value_text(one.values[0], one.unit)} ... {value_text(one.values[-1], one.unit)}",
-            text(one.answers[0]),
-            text(one.answers[-1]),
+            text(one.results[0]),
+            text(one.results[-1]),
             one.reason,
         )
         for one in found.influences

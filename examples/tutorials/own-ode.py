@@ -155,7 +155,7 @@ cavitated = evolve(scene, effects=(ck.ViscousForce(), ck.TensionLimit(strength=1
 try:
     ck.plan(cavitated).force(10 * um, 1e-3)
 except ck.PlanError as error:
-    print(str(error)[:82])
+    print(str(error).partition(";")[0])
 
 # %% [markdown]
 # For thinner films exchange impulses or hand the mass over: forces exchanged between two programs

@@ -152,6 +152,7 @@ def fmu(path, *more):
     return main(["fmu", "build", "stiction-mass", "--out", str(path), *more])
 
 
+@pytest.mark.slow
 def test_an_fmu_replaces_only_fmus_of_contactkit(tmp_path, capsys):
     pytest.importorskip("pythonfmu")
     path = tmp_path / "film.fmu"

@@ -124,7 +124,7 @@ def test_it_is_planned_run_written_and_drawn(scene, tmp_path):
 
 def test_its_study_varies_what_its_scene_has(scene, tmp_path):
     vary = {"loading.height": [1.0, 4.0]}
-    report = OpenedScene(scene, vary=vary).study(tmp_path, lambda done: None, StudyOptions())
+    report = OpenedScene(scene, parameters=vary).study(tmp_path, lambda done: None, StudyOptions())
     assert report.text.startswith("study:\nheight [m]")
     short, long = report.scalars["fall_time"][0]
     assert long == pytest.approx(2.0 * short)

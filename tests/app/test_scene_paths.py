@@ -135,7 +135,7 @@ def test_a_study_names_its_maps_from_the_folder_of_its_file(bare):
     write_map(bare / "map.npy")
     write_map(bare / "other.npy", factor=3.0)
     opened = open_scene(str(path))
-    found = ck.study(opened.scene, opened.vary, opened.accuracy)
+    found = ck.study(opened.scene, opened.parameters, opened.accuracy)
     one, other = found.column("contact_fraction")
     assert one > 1.3 * other
     assert [text.split()[-1] for text in found.table().splitlines()[1:3]] == ["converged"] * 2

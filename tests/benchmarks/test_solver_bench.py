@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from peers.cases import LOADS, RMS_SLOPE, case, symbol_maker
+from peers.cases import case, symbol_maker
 
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.elasticity.layered import normal_symbol
@@ -39,15 +39,6 @@ def timed(benchmark, solver, given, bound=None):
 
 
 @PATHS
-@pytest.mark.parametrize("n", [256, 512])
-@pytest.mark.parametrize("boundary", ["periodic", "free"])
-@pytest.mark.parametrize("area", [1, 20])
-def test_elastic_contact(benchmark, n, boundary, area, fast):
-    found = timed(benchmark, prepared(n, boundary, fast), case("selfaffine", n, boundary, area))
-    assert found.n_applications <= MOST_APPLICATIONS
-
-
-@PATHS
 @pytest.mark.parametrize("boundary", ["periodic", "free"])
 def test_surface_rough_down_to_the_pixel(benchmark, boundary, fast):
     found = timed(benchmark, prepared(256, boundary, fast), case("expacf", 256, boundary, 5))
@@ -73,20 +64,3 @@ def test_four_graded_layers(benchmark, fast):
 @pytest.mark.parametrize("boundary", ["periodic", "free"])
 def test_preparing_a_solver(benchmark, boundary):
     assert benchmark(prepared, 512, boundary).self_influence > 0.0
-
-
-@PATHS
-def test_load_curve_by_warm_starts(benchmark, fast):
-    given, solver = case("selfaffine", 256, "periodic", 5), prepared(256, fast=fast)
-    low, high = (LOADS["selfaffine"][area] * RMS_SLOPE for area in (1, 20))
-
-    def curve():
-        start, count, areas = None, 0, []
-        for load in np.geomspace(low, high, 20):
-            found = solver.solve(given.heights, mean_pressure=load, start=start)
-            start, count = found.pressure, count + found.n_applications
-            areas.append(np.count_nonzero(start))
-        return count, areas
-
-    benchmark.extra_info["applications"], areas = benchmark(curve)
-    assert np.all(np.diff(areas) > 0)

@@ -9,6 +9,7 @@ from pathlib import Path
 import loadings
 import numpy as np
 import pytest
+from refusals import each_refused
 
 import contactkit as ck
 from contactkit.analyses.division import critical_meniscus, divide_meniscus
@@ -231,10 +232,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("call", "message", "error"), REFUSED)
-def test_what_has_no_answer_is_refused(call, message, error):
-    with pytest.raises(error, match=message):
-        call()
+test_what_has_no_answer_is_refused = each_refused(REFUSED)
 
 
 def test_the_result_names_its_law():

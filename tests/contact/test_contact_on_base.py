@@ -7,6 +7,7 @@ import pickle
 
 import numpy as np
 import pytest
+from refusals import each_refused
 
 import contactkit as ck
 from contactkit.elasticity.layer_stack import uniform_compliance
@@ -170,8 +171,7 @@ def test_a_film_pressed_to_a_large_part_of_its_thickness_is_reported():
     assert number.value == pytest.approx(run.displacement.max() / 1e-7)
 
 
-@pytest.mark.parametrize(
-    ("make", "says"),
+test_what_a_base_cannot_do_is_refused_with_its_cure = each_refused(
     [
         (lambda: ck.Stack(substrate=ck.RigidBase(bonded=True)), "layers=.*Layer"),
         (lambda: ck.RigidBase(bonded="yes"), "bonded must be a bool"),
@@ -206,10 +206,8 @@ def test_a_film_pressed_to_a_large_part_of_its_thickness_is_reported():
             "incompressible.*finer Accuracy.grid",
         ),
     ],
+    error=ck.ContactkitError,
 )
-def test_what_a_base_cannot_do_is_refused_with_its_cure(make, says):
-    with pytest.raises(ck.ContactkitError, match=says):
-        make()
 
 
 def test_the_hardness_of_the_material_bounds_the_pressure_of_a_sheet():

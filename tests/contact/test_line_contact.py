@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from refusals import each_refused
 
 import contactkit as ck
 from contactkit.contact.patches import contact_patches
@@ -203,8 +204,7 @@ def test_files_keep_the_axis(tmp_path):
     assert again.plan.grid.along == "x"
 
 
-@pytest.mark.parametrize(
-    ("make", "says"),
+test_what_such_a_window_cannot_do_is_refused_with_its_cure = each_refused(
     [
         (lambda: ck.Window(periodic="z"), 'True, False, "x" or "y"'),
         (lambda: ck.Window(periodic=1.0), 'True, False, "x" or "y"'),
@@ -215,10 +215,8 @@ def test_files_keep_the_axis(tmp_path):
             "Layer.thickness must be at least a tenth of the pixel of .* incompressible",
         ),
     ],
+    error=ck.ContactkitError,
 )
-def test_what_such_a_window_cannot_do_is_refused_with_its_cure(make, says):
-    with pytest.raises(ck.ContactkitError, match=says):
-        make()
 
 
 @pytest.mark.parametrize("along", ["x", "y"])

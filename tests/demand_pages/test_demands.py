@@ -120,7 +120,7 @@ def test_release_times_of_the_page_are_right():
     "name",
     [
         "releases",
-        "bridge-force",
+        pytest.param("bridge-force", marks=pytest.mark.slow),
         *(pytest.param(name, marks=pytest.mark.slow) for name in ("slip", "history", "lines")),
     ],
 )

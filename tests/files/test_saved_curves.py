@@ -153,6 +153,15 @@ def test_a_study_with_a_failed_point_is_incomplete(tmp_path):
     assert np.isnan(again["contact_area"][1])
 
 
+def test_a_file_of_before_is_read(header, tmp_path):
+    found, columns = header
+    for name in ("kind", "validity", "parts", "shown"):
+        found.pop(name)
+    again = ck.read_curve(_write(tmp_path / "before", found, **columns))
+    assert again["load"].tolist() == columns["load"].tolist()
+    assert (again.parts, again.validity) == ({}, ())
+
+
 # Refused --------------------------------------------------------------------------------------
 
 
@@ -169,7 +178,7 @@ def header(tmp_path):
 
 BROKEN = {
     "another kind": lambda h, _: h.update(kind="contact"),
-    "no kind": lambda h, _: h.pop("kind"),
+    "no axis": lambda h, _: (h.pop("kind"), h.pop("axis")),
     "no units": lambda h, _: h.pop("units"),
     "a unit too few": lambda h, _: h["units"].pop("load"),
     "a unit that is no text": lambda h, _: h["units"].update(load=1),

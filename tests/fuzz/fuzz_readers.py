@@ -43,6 +43,7 @@ def readers() -> dict[str, Callable[[], Reader]]:
     return {
         "scene": _scenes,
         "result": _results,
+        "curve": _curves,
         "map": _maps,
         "fmu": _fmus,
         "ssp": _components,
@@ -124,6 +125,33 @@ def _check_result(result: Any) -> None:
     assert to_bytes(result)
     assert str(result)
     assert isinstance(result.status, str)
+
+
+def _curves() -> Reader:
+    film = ck.Meniscus(liquid=ck.Liquid(name="air"))
+    scene = ck.SeparationScene(
+        interface=ck.Interface(upper=ck.Sphere(radius=1e-5), meniscus=film),
+        loading=ck.ImposedSpeed(initial_gap=1e-9, final_gap=1e-6, speed=1e-6),
+        effects=(ck.AdhesiveContact(model="jkr", work_of_adhesion=0.05, reduced_modulus=1e9),),
+    )
+    slider = ck.SpringSlider(
+        load=1.0, static_coefficient=0.5, kinetic_coefficient=0.3, stiffness=100.0, speed=1e-3
+    )
+    made = {
+        "sphere": ck.adhesion_curve(scene, [0.0, 1e-6]),
+        "slips": ck.stick_slip(slider, n_slips=2),
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        saved = {n: one.save(Path(folder) / n).read_bytes() for n, one in made.items()}
+    return Reader({f"{n}.npz": one for n, one in saved.items()}, ck.read_curve, _check_curve)
+
+
+def _check_curve(curve: Any) -> None:
+    for name, (values, unit) in curve.table().items():
+        assert len(curve[name]) == len(values)
+        assert isinstance(unit, str), (name, unit)
+    assert str(curve)
+    assert curve.contents().remarks["status"] == curve.status
 
 
 # Height maps ---------------------------------------------------------------------------------

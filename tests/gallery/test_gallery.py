@@ -142,6 +142,7 @@ def test_a_page_that_cannot_be_written_is_reported_beside_its_checks(
     assert not (out / "squares.md").exists()
 
 
+@pytest.mark.slow
 def test_a_page_that_fails_does_not_stop_the_others(page, tmp_path, capsys):
     broken = tmp_path / "broken.py"
     broken.write_text(page.read_text().replace("return {", "raise ValueError('no data')\n    {"))
@@ -210,17 +211,24 @@ def test_the_documentation_shows_every_page():
             assert 0 < (shown / picture).stat().st_size < 150_000
 
 
-LONG = ("chapter_2", "measured")  # minutes; the quick pages of `measured` are in tests/references
+LONG = ("chapter_2", "chapter_3", "measured")  # the quick pages of the last are in tests/references
+PAGES = ["2.1b", "2.3", "2.8", "layered-equations", "3.7", "3.11", "3.15", "Table 4.1"]  # seconds
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
-    "chapter",
+    "pages",
     [
-        pytest.param(chapter, marks=[pytest.mark.exhaustive] * (chapter in LONG))
-        for chapter in sorted({script.chapter for script in scripts()})
+        pytest.param(PAGES, id="some", marks=pytest.mark.slow),
+        *(
+            pytest.param(
+                [chapter],
+                id=chapter,
+                marks=pytest.mark.exhaustive if chapter in LONG else pytest.mark.slow,
+            )
+            for chapter in sorted({script.chapter for script in scripts()})
+        ),
     ],
 )
-def test_every_page_holds_at_draft_sizes(chapter, tmp_path, capsys):
-    status = main(["gallery", chapter, "--out", str(tmp_path / "gallery"), "--quick"])
+def test_every_page_holds_at_draft_sizes(pages, tmp_path, capsys):
+    status = main(["gallery", *pages, "--out", str(tmp_path / "gallery"), "--quick"])
     assert status == 0, capsys.readouterr().out

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import pytest
 from refusals import POSITIVE, misfits, refuses
@@ -242,20 +243,37 @@ def test_walther_suspects_degrees_celsius_and_centistokes():
     )
 
 
-def test_walther_needs_more_than_the_end_of_its_logarithm():
-    refuses(
-        lambda: WaltherViscosity(**(VG46 | {"kinematic_viscosity_2": 3.9e-7})),
-        "WaltherViscosity.kinematic_viscosity_2 must lie between 4e-07 (0.4 cSt) and 1 [m2/s]",
-        "got 3.9e-07",
-    )
-
-
-def test_walther_needs_two_temperatures():
-    refuses(
-        lambda: WaltherViscosity(**(VG46 | {"temperature_2": 313.65})),
-        "WaltherViscosity.temperature_2 must differ from temperature_1 by at least 1 [K]",
-        "got 313.65; two points 50 K apart",
-    )
+@pytest.mark.parametrize(
+    ("law", "change", "parts"),
+    [
+        (
+            partial(WaltherViscosity, **VG46),
+            {"kinematic_viscosity_2": 3.9e-7},
+            (
+                "WaltherViscosity.kinematic_viscosity_2 must lie between 4e-07 (0.4 cSt)",
+                "got 3.9e-07",
+            ),
+        ),
+        (
+            partial(WaltherViscosity, **VG46),
+            {"temperature_2": 313.65},
+            (
+                "temperature_2 must differ from temperature_1 by at least 1 [K]",
+                "two points 50 K apart",
+            ),
+        ),
+        (
+            partial(VogelViscosity, **WATER),
+            {"reference_viscosity": 24.14},
+            (
+                "reference_viscosity must be below 1 [Pa.s], got 24.14",
+                "liquids have some 1e-5 Pa.s",
+            ),
+        ),
+    ],
+)
+def test_laws_of_viscosity_refuse_what_no_liquid_has(law, change, parts):
+    refuses(lambda: law(**change), *parts)
 
 
 @pytest.mark.parametrize("second", [46e-6, 47e-6])
@@ -264,14 +282,6 @@ def test_walther_needs_an_oil_that_thins(second):
         lambda: WaltherViscosity(**(VG46 | {"kinematic_viscosity_2": second})),
         "WaltherViscosity.kinematic_viscosity_2 must belong to an oil that thins as it warms",
         f"[m2/s], got {second!r}; it is given at 373.15 K, beside 4.6e-05 at 313.15 K; swapped?",
-    )
-
-
-def test_vogel_suspects_the_unit_of_its_viscosity():
-    refuses(
-        lambda: VogelViscosity(**(WATER | {"reference_viscosity": 24.14})),
-        "VogelViscosity.reference_viscosity must be below 1 [Pa.s], got 24.14",
-        "liquids have some 1e-5 Pa.s",
     )
 
 

@@ -364,6 +364,7 @@ def test_an_enclosed_film_needs_compressible_liquid():
     assert cavitated.liquid_fraction[1, 1] == pytest.approx(1.0 / 1.01, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_thousand_cycles_do_not_drift():
     """Two cells and a viscosity that changes a million times: volumes stay what they were."""
     face = reynolds.face_from_mask(np.pad(np.ones((1, 2), bool), 1), 1e-4)

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from refusals import each_refused
 from reynolds_cases import (
     CASES,
     OIL,
@@ -302,10 +303,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("make", "message"), REFUSED)
-def test_bad_input_is_refused(make, message):
-    with pytest.raises(DescriptionError, match=message):
-        make()
+test_bad_input_is_refused = each_refused(REFUSED)
 
 
 def test_the_case_of_the_recess_is_met_by_the_grid():

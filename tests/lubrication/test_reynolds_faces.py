@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from refusals import each_refused
 from reynolds_cases import (
     OIL,
     R,
@@ -369,10 +370,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("make", "message"), REFUSED)
-def test_bad_input_is_refused(make, message):
-    with pytest.raises(DescriptionError, match=message):
-        make()
+test_bad_input_is_refused = each_refused(REFUSED)
 
 
 def test_enclosed_liquid_is_refused():

@@ -189,7 +189,7 @@ def test_a_file_may_vary_paths_together(tmp_path, capsys):
     assert main(["plan", str(path)]) == 0
     assert f"{thickness}, loading.pressure: 2 values" in capsys.readouterr().out
     opened = open_scene(str(path))
-    made = ck.study(opened.scene, opened.vary, ck.Accuracy(grid=48, rtol=1e-3))
+    made = ck.study(opened.scene, opened.parameters, ck.Accuracy(grid=48, rtol=1e-3))
     assert made.shape == (2,)
     assert made.column(thickness).tolist() == [5e-9, 1e-8]
 

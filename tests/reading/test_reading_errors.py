@@ -393,7 +393,7 @@ def test_a_long_key_is_not_repeated_whole(put, text):
 
     def read():
         opened = open_scene(str(path))
-        ck.study(opened.scene, opened.vary)
+        ck.study(opened.scene, opened.parameters)
 
     with pytest.raises(DescriptionError) as caught:
         read()
@@ -461,7 +461,9 @@ def test_grids_and_studies_have_a_size(put, small):
     )
     values = list(np.linspace(1e-6, 2e-6, 1001))
     vary = {"loading.initial_gap": values, "loading.speed": values}
-    refuses(lambda: ck.study(scene, vary), "vary must have at most 1,000,000 points", "1,002,001")
+    refuses(
+        lambda: ck.study(scene, vary), "parameters must have at most 1,000,000 points", "1,002,001"
+    )
     small(PIXELS=10)
     path = put("a.csv", "0, 1, 2, 3\n" * 3)
     refuses(lambda: read_height_map(path, **SIZE), "have at most 10 pixels", "has 12 pixels")

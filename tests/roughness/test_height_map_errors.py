@@ -104,13 +104,6 @@ BAD_TEXTS = {
 }
 
 
-@pytest.mark.parametrize("name", BAD_TEXTS)
-def test_a_text_that_is_no_map(write, name):
-    content, message = BAD_TEXTS[name]
-    with pytest.raises(DescriptionError, match=message):
-        read_height_map(write("a.txt", content), **SIZE)
-
-
 BAD_ARRAYS = {
     "three dimensions": (np.zeros((2, 2, 2)), r"at least 2 x 2 pixels.*\(2, 2, 2\)"),
     "a number": (np.array(1.0), r"at least 2 x 2 pixels"),
@@ -122,13 +115,6 @@ BAD_ARRAYS = {
     "no array": (b"not a numpy file", r"numpy file of numbers"),
     "cut short": (b"", r"numpy file of numbers"),
 }
-
-
-@pytest.mark.parametrize("name", BAD_ARRAYS)
-def test_an_array_that_is_no_map(write, name):
-    content, message = BAD_ARRAYS[name]
-    with pytest.raises(DescriptionError, match=message):
-        read_height_map(write("a.npy", content), **SIZE)
 
 
 BAD_POINTS = {
@@ -144,11 +130,21 @@ BAD_POINTS = {
 }
 
 
-@pytest.mark.parametrize("name", BAD_POINTS)
-def test_points_that_are_no_grid(write, name):
-    content, message = BAD_POINTS[name]
+BAD_FILES = [
+    (f"a{ending}", *bad, how)
+    for ending, table, how in (
+        (".txt", BAD_TEXTS, SIZE),
+        (".npy", BAD_ARRAYS, SIZE),
+        (".xyz", BAD_POINTS, {"unit": "nm"}),
+    )
+    for bad in table.values()
+]
+
+
+@pytest.mark.parametrize(("name", "content", "message", "how"), BAD_FILES)
+def test_a_file_that_is_no_map(write, name, content, message, how):
     with pytest.raises(DescriptionError, match=message):
-        read_height_map(write("a.xyz", content), unit="nm")
+        read_height_map(write(name, content), **how)
 
 
 @pytest.mark.parametrize("name", ["a.csv", "a.npy"])

@@ -71,7 +71,7 @@ def test_a_page_that_there_is_not_is_refused_with_the_list(pages, capsys, monkey
     assert all(name in said for name in pages.PAGES)
 
 
-def test_pages_that_are_named_are_written_and_one_that_fails_is_told(pages, capsys, monkeypatch):
+def test_pages_are_written_and_one_that_fails_is_reported(pages, capsys, monkeypatch):
     wrote = []
     monkeypatch.setattr(pages, "write", lambda name: wrote.append(name) or name != "films")
     assert pages.main(["films", "claims"]) == 1

@@ -50,6 +50,7 @@ FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
 # Names of packages, kinds, the figures of a room, an optional package, what an FMU carries, what
 # plans and runs a kind of scene, a device and its report.
 IMPORT_BY_NAME = {
+    "contactkit.benchmarks.hard.case",
     "contactkit.benchmarks.table",
     "contactkit.models.device",
     "contactkit.models.library",

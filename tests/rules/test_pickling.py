@@ -8,6 +8,8 @@ import functools
 import inspect
 import multiprocessing
 import pickle
+import tempfile
+from pathlib import Path
 
 import attrs
 import numpy as np
@@ -121,6 +123,11 @@ def signals():
     return time, {"h": time.copy(), "F": time.copy()}
 
 
+def saved():
+    with tempfile.TemporaryDirectory() as folder:
+        return ck.read_curve(stick_slip().save(Path(folder) / "slips"))
+
+
 def coupled():
     return Coupled(*signals(), 0.5, -1.0, ("a line",), 2, 0, 7, 0.1)
 
@@ -151,6 +158,7 @@ MADE = {
     "adhesion curve": adhesion,
     "pull-off curve": pull_off,
     "stick-slip": stick_slip,
+    "saved curve": saved,
     "division": lambda: ck.divide_meniscus(film(), [1, 2]),
     "critical meniscus": lambda: ck.critical_meniscus(film()),
     "printed equation": lambda: ck.PUBLISHED["3.19"],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import re
 import shutil
@@ -10,6 +11,8 @@ import sys
 from pathlib import Path
 
 import pytest
+
+import contactkit as ck
 
 ROOT = Path(__file__).parents[2]
 
@@ -47,6 +50,9 @@ REVEALED = {
     "ck.press([[0.0]], 1e-9, steel, 1e6)": "ContactResult",
     "ck.pull_off_curve(ck.plan(touch), [0.0, 1e-9])": "PullOffCurve",
     "ck.load_displacement(touch)": "LoadDisplacementCurve",
+    "ck.read_curve(path)": "SavedCurve",
+    'ck.capillary_force("10 um", 0.7)': "float",
+    "ck.squeeze_time(1.0, 1e-3, 0.1, 1e-6)": "float",
 }
 HEAD = """\
 from pathlib import Path
@@ -83,6 +89,41 @@ def short(text):
     """A type without the modules of its parts; a named tuple by its name."""
     text = re.sub(r"\b(?:\w+\.)+(\w+)", r"\1", text)
     return re.sub(r"tuple\[.*fallback=(\w+)\]", r"\1", text)
+
+
+def first_arguments():
+    """Name and annotation of the first argument of each public function, and all its arguments."""
+    for name in ck.__all__:
+        function = getattr(ck, name)
+        if inspect.isfunction(function):
+            given = list(inspect.signature(function).parameters.values())
+            if given:
+                yield name, given[0].name, str(given[0].annotation), {one.name for one in given}
+
+
+def test_the_first_argument_is_a_plan_that_is_solved_or_a_scene_that_is_planned():
+    """The rule of the API page: what takes a plan has no accuracy beside it."""
+    wrong = []
+    for function, name, kind, arguments in first_arguments():
+        if kind.endswith("Plan"):
+            is_right = name == "plan" and "accuracy" not in arguments
+        elif "Scene" in kind:
+            is_right = name == ("wetted" if "Result" in kind else "scene")
+        else:
+            is_right = name not in ("plan", "scene") or kind == "Any"  # of a device, too
+        wrong += [] if is_right else [function]
+    assert wrong == []
+
+
+def test_counts_have_one_name_and_no_public_function_returns_any():
+    found = {name: getattr(ck, name) for name in ck.__all__}
+    functions = {name: one for name, one in found.items() if inspect.isfunction(one)}
+    untyped = [n for n, f in functions.items() if f.__annotations__.get("return") in (None, "Any")]
+    assert untyped == []
+    counted = {"number", "count", "counts", "slips", "unloadings", "refinements", "vary", "answer"}
+    taken = {n: counted & set(inspect.signature(f).parameters) for n, f in functions.items()}
+    del taken["published"]  # the number of an equation
+    assert not any(taken.values()), taken
 
 
 @pytest.mark.slow

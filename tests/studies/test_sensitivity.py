@@ -54,7 +54,7 @@ def test_answers_are_those_of_the_law(film, found):
     ):
         one = found.influence(path)
         assert one.values == pytest.approx(values)
-        assert np.array(one.answers) / base == pytest.approx(factors, rel=1e-6)
+        assert np.array(one.results) / base == pytest.approx(factors, rel=1e-6)
 
 
 def test_most_influential_comes_first(found):
@@ -69,7 +69,7 @@ def test_most_influential_comes_first(found):
 @pytest.mark.slow
 def test_same_on_processes(film, found):
     again = ck.sensitivity(film, {"loading.speed": (0.9e-3, 1.2e-3)}, "peak_force", workers=2)
-    assert again.influences[0].answers == found.influence("loading.speed").answers[::2]
+    assert again.influences[0].results == found.influence("loading.speed").results[::2]
 
 
 def test_text_and_files(found, tmp_path):
@@ -84,7 +84,7 @@ def test_text_and_files(found, tmp_path):
     assert frame["greatest"][0] == pytest.approx(4.0 * found.base)
 
 
-def test_what_has_no_answer_comes_first_and_says_why(film):
+def test_what_has_no_result_comes_first_and_says_why(film):
     def gap_over(scene):
         if scene.loading.initial_gap > 5e-6:
             raise ck.InfeasibleError("too far")
@@ -93,10 +93,10 @@ def test_what_has_no_answer_comes_first_and_says_why(film):
     ranges = {"loading.speed": (1e-4, 1e-2), "loading.initial_gap": (4e-6, 6e-6)}
     got = ck.sensitivity(film, ranges, gap_over, unit="m")
     first, last = got.influences
-    assert (first.path, got.answer, got.unit) == ("loading.initial_gap", "gap over", "m")
+    assert (first.path, got.quantity, got.unit) == ("loading.initial_gap", "gap over", "m")
     assert first.has_gaps
     assert first.swing(got.base) == math.inf
-    assert last.answers == (5e-6, 5e-6)
+    assert last.results == (5e-6, 5e-6)
     assert "too far" in got.table()
 
 
@@ -105,7 +105,7 @@ def test_assumptions_that_vary_together_may_be_a_tuple(film):
     ranges = {("loading.speed", "loading.initial_gap"): ends}
     got = ck.sensitivity(film, ranges, lambda scene: scene.loading.initial_gap, unit="m")
     assert got.influences[0].path == "loading.speed, loading.initial_gap"
-    assert got.influences[0].answers == (5e-6, 6e-6)
+    assert got.influences[0].results == (5e-6, 6e-6)
 
 
 @pytest.mark.parametrize(
@@ -116,14 +116,14 @@ def test_assumptions_that_vary_together_may_be_a_tuple(film):
         ({"ranges": {"loading.speed": 1.0}}, "a pair"),
         ({"ranges": {"loading.speed": (-1.0, 2.0)}}, "speed"),
         ({"n": 1}, "at least 2"),
-        ({"answer": "peak_farce"}, "peak_force"),
-        ({"answer": 3.0}, "or a function"),
+        ({"quantity": "peak_farce"}, "peak_force"),
+        ({"quantity": 3.0}, "or a function"),
         ({"unit": "N"}, "be left out"),
-        ({"answer": lambda scene: 1.0, "workers": 2}, "be left out"),
+        ({"quantity": lambda scene: 1.0, "workers": 2}, "be left out"),
     ],
 )
 def test_refusals(film, change, message):
-    given = {"ranges": {"loading.speed": (1e-4, 1e-3)}, "answer": "peak_force"} | change
+    given = {"ranges": {"loading.speed": (1e-4, 1e-3)}, "quantity": "peak_force"} | change
     with pytest.raises(ck.DescriptionError, match=message):
         ck.sensitivity(film, **given)
 
@@ -162,7 +162,7 @@ def test_the_oil_decides_how_long_the_spool_sticks(injector):
     chosen = {path: RANGES[path] for path in (strength, cavity, "temperature", "loading.mass")}
     got = ck.sensitivity(injector, chosen, sticking_time, unit="s")
     assert [one.path for one in got.influences[:2]] == [strength, cavity]
-    assert math.isnan(got.influences[0].answers[1])  # 30 bar: never released
+    assert math.isnan(got.influences[0].results[1])  # 30 bar: never released
     assert got.base == pytest.approx(0.342e-3 - 0.319e-3, abs=1e-6)
     assert got.influence("temperature").swing(got.base) < 1e-6
 

@@ -83,11 +83,17 @@ def test_a_path_that_leads_nowhere_is_put_right(nothing_solved, path):
 @pytest.mark.parametrize(
     ("vary", "parts"),
     [
-        ({}, ("vary must name at least one field", "{}")),
-        ("loading.pressure", ("vary must name at least one field",)),
-        ({("loading.pressure", 2): [(1e6, 2)]}, ("vary must be named by a path, or by a tuple",)),
-        ({(): [()]}, ("vary must be named by a path, or by a tuple of paths",)),
-        ({"loading.pressure": []}, ("vary['loading.pressure'] must have at least one value",)),
+        ({}, ("parameters must name at least one field", "{}")),
+        ("loading.pressure", ("parameters must name at least one field",)),
+        (
+            {("loading.pressure", 2): [(1e6, 2)]},
+            ("parameters must be named by a path, or by a tuple",),
+        ),
+        ({(): [()]}, ("parameters must be named by a path, or by a tuple of paths",)),
+        (
+            {"loading.pressure": []},
+            ("parameters['loading.pressure'] must have at least one value",),
+        ),
         ({"loading.pressure": "5 MPa"}, ("must be a sequence of values", "'5 MPa'")),
         ({"loading.pressure": 5e6}, ("must be a sequence of values", "5000000.0")),
         ({"loading.pressure": ["5 nm"]}, ("Pressing.pressure must be in a unit", "Pa")),

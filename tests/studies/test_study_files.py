@@ -114,9 +114,9 @@ def test_a_separation_file_is_studied(file, tmp_path, capsys):
     alone = ck.simulate(ck.plan(scene)).mean_viscous_force
     assert force[0, 0] == pytest.approx(alone, rel=1e-9)
     assert force[1] == pytest.approx(2.0 * force[0], rel=1e-9)
-    with np.load(out / "study.npz", allow_pickle=False) as saved:
-        assert json.loads(str(saved["header"]))["shape"] == [2, 3]
-        assert saved["mean_viscous_force"] == pytest.approx(force.ravel(), rel=1e-9)
+    saved = ck.read_curve(out / "study.npz")
+    assert saved.parts["shape"] == (2, 3)
+    assert saved["mean_viscous_force"] == pytest.approx(force.ravel(), rel=1e-9)
 
 
 def test_a_sliding_file_is_studied(file, tmp_path):

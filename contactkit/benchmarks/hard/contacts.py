@@ -29,7 +29,7 @@ __all__ = [
 ]
 
 Array = NDArray[np.float64]
-N = 64
+N = 64  # pixels a side: the naive methods take seconds there, and minutes on twice as many
 TWO = 2.0  # mean compliance of the half-space times wavenumber, in units of 1/E*
 
 

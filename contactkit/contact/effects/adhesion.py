@@ -22,8 +22,13 @@ if TYPE_CHECKING:
 
 __all__ = ["Adhesion", "AdhesionPart"]
 
+# A pixel is unstable by itself from 1 on. Pull-off of a sphere is 0.5 % off at 0.6, 9 % at 1.1.
 _MOST_TRAPPING = 0.5
+# Attraction of a rough map that hardly touches, over that of a grid so fine that it stays: up to
+# 0.3 % off below 1, 1 % at 1.2, 2 to 3 % at 2 to 3, and 17 % at 5.6.
 _MOST_STEP = 1.0
+# The same fraction of 2 pi R w is attraction beyond the window, of an exponential law on a ball:
+# its tension and its work fall alike over the gap.
 _MOST_AT_EDGE = 0.05
 _MOST_TENSION = 1e8  # over E*: the net pressure, a difference of tensions, keeps eight digits of E*
 

@@ -13,6 +13,7 @@ from ...units import si
 from ...validators import as_tuple, as_whole, count, non_negative
 from ...validity import ValidityNumber
 from .base import Array, LoadHistory, PressureBound, Scalar, SolvedContact
+from .plasticity import MOST_PLASTIC
 
 if TYPE_CHECKING:
     import numpy as np
@@ -37,7 +38,8 @@ _CURVES = (
 
 __all__ = ["PlasticHistory", "PlasticHistoryPart"]
 
-_MOST_PLASTIC = 0.5
+# Of the work of the load. A ball that is pressed in and unloaded has 0.075 with two steps to each
+# load, 0.027 with four, 0.009 with eight: what the trapezoidal rule leaves, more steps cure.
 _HIGHEST_IMBALANCE = 0.1
 
 
@@ -206,7 +208,7 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
             ValidityNumber(
                 name="fraction of the contact at the hardness, over its history",
                 value=_plastic_fraction(part),
-                high=_MOST_PLASTIC,
+                high=MOST_PLASTIC,
                 detail="the volume that plastic flow displaces is left out, and elasticity carries "
                 "the rest of the load; lower the loads, or take the area as load over hardness",
             ),

@@ -29,7 +29,10 @@ if TYPE_CHECKING:
     from ...scene.window import Grid
     from .base import Map
 
-_MOST_PLASTIC = 0.5
+# Where more than half of the contact is at the hardness, the load is shared out by the hardness
+# rather than by the elastic solid, which is all that gives way here.
+MOST_PLASTIC = 0.5
+"""Fraction of the contact at the hardness from which on the answer is in doubt [-]."""
 _SOFTEST, _HARDEST = 1e-5, 1.0  # hardness over E*: single crystals; five times that of glasses
 AT_HARDNESS = 1.0 - 1e-6
 """Pressure over hardness from which on a pixel is plastic [-]: one that is loaded again to where it
@@ -129,7 +132,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
             ValidityNumber(
                 name="fraction of the contact at the hardness",
                 value=int(part.is_plastic.sum()) / touching if touching else None,
-                high=_MOST_PLASTIC,
+                high=MOST_PLASTIC,
                 detail="the volume that plastic flow displaces is left out, and elasticity carries "
                 "the rest of the load; lower the load, or take the area as load over hardness"
                 if touching

@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 __all__ = ["FreeDirections", "lengths", "onto_discs", "onto_discs_and_sum", "towards"]
 
 Array = NDArray[np.float64]
-_ITERATIONS = 100
+# Newton: twelve are enough on paths of spheres and rough maps, at 0.9999 of full sliding too. Six
+# cost 2 % more applications of H, as sums are missed and made up for; three, three quarters more.
+_ITERATIONS = 50
 
 
 def lengths(q: Array) -> Array:

@@ -56,11 +56,15 @@ def improve(grid: GridLevel, problem: ContactProblem, rtol: float) -> Outcome:
     """
     history: list[tuple[int, float]] = []
     state: ActiveSetState = ProjectedSet(grid, problem, rtol)
+    # The truncated set costs least but may stall, as cut pressures can raise the energy. Then the
+    # projected one, whose energy falls at every step, goes on from its pressures.
     if not grid.is_stiff:
         state = TruncatedSet(grid, problem, rtol)
         if not _iterate(state, history):
             state = ProjectedSet(grid, problem, rtol)
     is_done = state.done() or _iterate(state, history)
+    # The caller looks at `relative` alone: a residual in single precision, or one of pressures that
+    # miss the load, must not pass for a solution.
     relative = state.relative if is_done else max(state.relative, 2.0 * rtol)
     return Outcome(state.approach, relative, state.certificate, len(history), tuple(history))
 
@@ -76,6 +80,6 @@ def _iterate(state: ActiveSetState, history: list[tuple[int, float]]) -> bool:
             continue  # evaluate again before anything is corrected
         if state.stagnates(step):
             break
-        if step < state.max_iterations - 1:
+        if step < state.max_iterations - 1:  # the pressures that are left have been evaluated
             state.correct()
     return False

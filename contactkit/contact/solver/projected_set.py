@@ -1,4 +1,4 @@
-r"""Projected active set: for stiff films, under which truncated ones lead nowhere.
+r"""Projected active set: for stiff films, under which truncated steps stall.
 
 As long as many pixels come or go, the step is the one that minimises the energy with the operator
 replaced by the inverse of its sparse inverse K: the preconditioned residual ``K r`` of all pixels
@@ -43,9 +43,9 @@ FARTHEST = 2.0  # pressures that a trial may move before it is projected, over t
 FARTHER = 30.0  # how much more it may after a step that could have gone on
 MAX_APPLICATIONS = 1500  # of the operator
 MOST_SHORT = 3  # such steps in a row, after which conjugate gradients are tried
-STUCK = 0.02  # step of the line search that leads nowhere
+STUCK = 0.02  # step of the line search that stalls
 LEAST = 0.1  # fraction of a step in the metric that is tried after short ones
-FINEST = 1e-6  # tolerance of the projection after steps that led nowhere
+FINEST = 1e-6  # tolerance of the projection after steps that stalled
 FLOOR = 1e-2  # reduction that single precision still gives under a stiff film
 REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear residual is reduced
     (0.01, 0.1),
@@ -105,7 +105,7 @@ class ProjectedSet(ActiveSetState):
             return super().evaluate()
         length = max(length, 0.0)
         self.p[at] = p + length * d
-        self.g *= length
+        self.g *= length  # between two gaps that are known: the displacement is linear
         self.g += (1.0 - length) * g
         return self.grade()
 
@@ -159,7 +159,7 @@ class ProjectedSet(ActiveSetState):
         rest = r[free] - moved
         if self.load_fixed:
             rest -= rest.mean()
-        better = y.copy()
+        better = y.copy()  # the others stay at the bounds that the trial met
         x = self._solved(inside, rest)
         better[free] = self._projected(inside, y[free], x, bound[free])
         return better if dot(r, better - p) > 0.0 else y
@@ -197,7 +197,7 @@ class ProjectedSet(ActiveSetState):
             projection.restore(change, 0.0)
             change = _balanced(change)
         y = np.clip(p + change, 0.0, bound)
-        y[change <= low] = 0.0
+        y[change <= low] = 0.0  # exactly, as p + change is not: the sets follow from it
         return np.asarray(np.where(change >= high, bound, y))
 
     def _downhill(self, p: Floats, r: Floats, bound: Floats) -> Floats:

@@ -153,7 +153,7 @@ class Projection:
         n, kind = factor.shape[0], factor.dtype
         self.k = self.product(np.ones(n, kind))
         self.stiffness = float(self.k.sum(dtype=np.float64))
-        self.diagonal = np.bincount(factor.indices, factor.data**2, n).astype(kind)
+        self.diagonal = np.bincount(factor.indices, factor.data**2, n).astype(kind)  # of L' L
         self.w = np.zeros(n, kind)
         self.steps, self.work = 0, 0.0
 
@@ -182,7 +182,7 @@ class Projection:
             held = side != 0
             bound = np.where(side > 0, self.high, self.low)
             system = _HeldSystem(self, held, keeps_sum)
-            w = self.w[system.at]
+            w = self.w[system.at]  # of the last set: the next one differs by few pixels
             goal = (bound - x)[system.at]
             most = min(MAX_STEPS, MOST_STEPS - self.steps)
             self.steps += system.solve(goal, w, self.tolerance, most)
@@ -213,6 +213,7 @@ class Projection:
 
         here, found = excess(0.0, first.side)
         a, b, at_a, at_b = 0.0, 0.0, here, here
+        # As if no pixel were held; held ones make the sum stiffer, so that the step has to grow.
         step = here / self.stiffness
         for _ in range(MAX_SHIFTS):
             if not self._misses(found, total) or self.steps >= MOST_STEPS:

@@ -51,7 +51,7 @@ class TruncatedSet(ActiveSetState):
     def correct(self) -> None:
         """Correct the free pixels; if there are none, take a projected gradient step."""
         loops = self.grid.loops
-        if self.stopped == 0:
+        if self.stopped == 0:  # else they were chosen with the last correction
             self._choose_free()
         if self.at.size <= (self.load_fixed and not self.missing):
             self.descend()
@@ -63,14 +63,14 @@ class TruncatedSet(ActiveSetState):
         x = system.solve(r, self._reduction(), self.missing)
         self.stopped = loops.add_and_clip(self.p, self.at, x, self.upper)
         self._balance()
-        if self.stopped and self.stuck:
+        if self.stopped and self.stuck:  # left there: predicted free, they come and go
             self.at, self.added = self.at[self.between(self.at)], 0
         elif self.stopped:
             system.displace(x)
             self._predict_free()
 
     def _reduction(self) -> float:
-        """How far to reduce the linear residual: little as the active set changes, not in vain."""
+        """How far to reduce the linear residual: inexact Newton, loose as the set changes."""
         if self.stuck:
             return 0.03
         enough = SAFETY * self.rtol / max(self.relative, 1e-5 * self.rtol)

@@ -152,6 +152,7 @@ class CoarseBlocks:
         self._column = np.arange(shape[1]) * blocks[1] // shape[1]
         self._pixels = shape[0] * shape[1] / (blocks[0] * blocks[1])
         width = symbol_width(blocks[1], periodic)
+        # A pixel gives way under its own pressure more than as a part of its block.
         self._own = max(own - self_influence(symbol, width) / self._pixels, 0.05 * own)
         self.weigh(np.ones(self.count), False)
 
@@ -262,6 +263,7 @@ class TwoLevel:
         total = loops.block_sums(self.block, r, blocks.count)
         loops.subtract_block_values(r, self.block, total * blocks.per_pixel, self.rest)
         z = self._short_waves(self.rest)
+        # The sums over blocks are those of the coarse problem: what short waves add is taken off.
         long = blocks.solve(total)
         long -= loops.block_sums(self.block, z, blocks.count) * blocks.per_pixel
         loops.add_block_values(z, self.block, long)

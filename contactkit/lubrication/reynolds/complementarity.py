@@ -99,6 +99,7 @@ def solve_active_set(problem: Problem, full: Set, limit: int) -> Solution:
         count += 1
         q, void = _with_set(problem, full)
         pressure = q + problem.drop
+        # A full cell gives way below its floor; a void one is full where liquid overfills it.
         new = np.where(full, pressure >= -ROUND_OFF * np.abs(q).max(), void < -ROUND_OFF)
         settled = bool(np.array_equal(new, full))
         if settled or count >= limit or new.tobytes() in seen:

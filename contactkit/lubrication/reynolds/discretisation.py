@@ -133,6 +133,8 @@ def discretise(
     height = gap.ravel()
     conduct = height**3 / (12.0 * viscosity)
     a, b = conduct[mesh.sides.low], conduct[mesh.sides.high]
+    # Halves of two cells in series: they carry one flow, also where the gap has a step between.
+    # Up to the rim the gap is that of the cell alone.
     inner = mesh.sides.geometry * (2.0 * a * b / (a + b))
     outer = mesh.rim.geometry * conduct[mesh.rim.cell]
     reference, beyond = _reservoirs(face, mesh)

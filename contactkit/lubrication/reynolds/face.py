@@ -40,6 +40,8 @@ __all__ = [
 
 FILM, RESERVOIR, SOLID = 0, -1, -2
 """Owners of a cell; those of pockets are 1, 2, ..."""
+# Parts of a cell along an edge. Areas of elliptic holes of 10 to 40 cells across are then off by up
+# to 3e-4; by 3e-3 with 4, 1e-4 with 16, which has four times the points.
 _FINER = 8
 
 

@@ -103,6 +103,8 @@ def solve_sparse(matrix: Any, right: Array, solver: str, is_symmetric: bool) -> 
         return _multigrid(matrix, right)
     from scipy.sparse.linalg import splu
 
+    # Columns are diagonally dominant: conductances, and what walls carry from a cell to others. No
+    # pivots are needed, and the order of a symmetric pattern fills least.
     try:
         factor = splu(
             matrix.tocsc(),

@@ -162,7 +162,7 @@ def recesses(face: Face, gap: Array) -> NDArray[np.int64] | None:
     shallower = np.where(flat[a] > flat[b], b, a)[step]
     deep = np.zeros(region.max() + 1, bool)
     deep[region[deeper]] = True
-    deep[region[shallower]] = False
+    deep[region[shallower]] = False  # not a terrace between two steps
     tied = np.where(film & deep[region], region + 1, 0)
     return tied.reshape(gap.shape) if tied.any() else None
 

@@ -43,7 +43,7 @@ PATIENCE = 4
 """Iterations of the active set before a coarser grid is asked for a better guess."""
 SMALLEST_GRID = 16
 """Cells along the longer side below which no coarser grid is asked."""
-_AT_REST = (0.0, 0.0)
+_AT_REST = (0.0, 0.0)  # walls that do not slide [m/s]
 
 Velocity = tuple[float, float]
 
@@ -347,6 +347,7 @@ def unchecked_step(
         film=film,
         face=face,
         gap=height,
+        # To be filled: the gap after the step less the liquid before it. Voids close first.
         growth=(height - state.liquid_fraction * state.gap) / dt,
         floor=_floors(film, state.beside_cavity),
         fraction=state.liquid_fraction,

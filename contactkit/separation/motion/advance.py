@@ -71,7 +71,7 @@ def advance(plan: Plan, state: MotionState, pull: PullLaw, dt: float) -> MotionS
     if not (math.isfinite(dt) and dt >= 0.0):
         raise DescriptionError("advance(dt)", dt, "be zero or positive, and finite", unit="s")
     end = state.time + dt
-    nothing = 1e-13 * max(abs(end), dt)
+    nothing = 1e-13 * max(abs(end), dt)  # round-off of a sum of some hundred steps
     cost = 0
     while cost <= plan.accuracy.max_steps:
         if end - state.time <= nothing:
@@ -111,7 +111,7 @@ def _with_times(before: MotionState, state: MotionState) -> MotionState:
         return state
     if was:
         return state._replace(inception_time=state.time, n_inceptions=state.n_inceptions + 1)
-    if state.broken:
+    if state.broken:  # its cavity went with the film
         return state
     return state._replace(reformation_time=state.time, n_reformations=state.n_reformations + 1)
 
@@ -127,6 +127,7 @@ def _one_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> Moti
     film = acting_film(plan, state)
     cavity = cut_before_step(film, state.cavity, (state.gap, state.speed))
     if cavity is not None:
+        # What a full film allowed says nothing of steps with a cavity: `step` is found anew.
         return state._replace(cavity=cavity, step=0.0)
     problem = _problem(plan, film, state, pull)
     if problem.size <= _NO_FORCE and _is_at_rest(problem):
@@ -249,6 +250,7 @@ def _stepped(
         length = _CONTROL.shorter(length, error)
         if length < max(1e-15 * abs(state.time), _NO_TIME) or rejected > _MOST_REJECTED:
             raise _no_step(state, problem.rtol)
+    # A step that a span cut short shows no error: it must not make the next one short as well.
     is_cut = not rejected and length < state.step
     following = _CONTROL.following(length, error, state.step if is_cut else 0.0)
     event = next_event(plan, film, state, taken.stages[2].gap)
@@ -260,7 +262,7 @@ def _stepped(
         turn = cut_at_event(problem, law, cavity, taken, length)
         if turn is not None:
             (taken, length), event = turn, None
-        if length == 0.0:
+        if length == 0.0:  # the phase changes where the step starts, and no time passes
             return state._replace(cavity=law.after_event(cavity, state.gap, state.speed))
         cavity = after(law, cavity, taken, problem.begin.gap)
         if turn is not None:

@@ -21,6 +21,7 @@ def _closed_gap(plan: Plan) -> float:
 def next_event(plan: Plan, film: Film | None, state: MotionState, gap: float) -> float | None:
     """Gap of the first event on the way to `gap`; kinks of the forces are events too."""
     loading = plan.scene.imposed_force
+    # A method of fifth order needs smooth forces within a step, so that one ends at each kink.
     events = film.kinks if film is not None else ()
     if gap > state.gap:
         if state.armed:

@@ -123,8 +123,8 @@ class SlidingForce(SeparationEffect):
     def prepare(self, prepared: PreparedScene[SlidingScene]) -> SlideLaw:
         """Do the work that depends on neither travel nor speed."""
 
-    def printed(self, plan: SlidePlanView, duration: float) -> tuple[PublishedValue, ...]:
-        """Printed equations that a run of a duration [s] takes, each with the right value."""
+    def mean_errata(self, plan: SlidePlanView, duration: float) -> tuple[PublishedValue, ...]:
+        """Printed equations of a run of a duration [s], each with the right value; see `errata`."""
         return ()
 
     def part(self, result: SlideView) -> SlidingPart:
@@ -250,8 +250,8 @@ class CouetteForce(SlidingForce):
             return _even_law(film, gap, film.height(gap), viscosity, limit)
         return _sphere_law(film, gap, viscosity, limit, self.closure == "lubrication")
 
-    def printed(self, plan: SlidePlanView, duration: float) -> tuple[PublishedValue, ...]:
-        """See `SlidingForce.printed`: the mean force of one meniscus."""
+    def mean_errata(self, plan: SlidePlanView, duration: float) -> tuple[PublishedValue, ...]:
+        """See `SlidingForce.mean_errata`: the mean force of one meniscus."""
         if not self.takes_printed():
             return ()
         from ...as_published.lookup import published

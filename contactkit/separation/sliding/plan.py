@@ -195,14 +195,14 @@ def _check_gap(scene: SlidingScene) -> None:
         )
 
 
-def divide_sliding(scene: SlidingScene, number: int) -> SlidingScene:
+def divide_sliding(scene: SlidingScene, n_menisci: int) -> SlidingScene:
     r"""Return a scene in which a number of menisci stand where there was one, on the same area.
 
     Parameters
     ----------
     scene : SlidingScene
         A film between flats, or under a sphere.
-    number : int
+    n_menisci : int
         Number N of menisci in place of each; the square of a whole number fills a square.
 
     Returns
@@ -224,11 +224,13 @@ def divide_sliding(scene: SlidingScene, number: int) -> SlidingScene:
         If neighbouring menisci would overlap: the wetted radius exceeds that of the asperities,
         N^(1/2) > R/(2 (s - D)).
     """
-    if isinstance(number, bool) or not isinstance(number, int) or number < 1:
-        raise DescriptionError("divide_sliding(number)", number, "be a whole number of at least 1")
+    if isinstance(n_menisci, bool) or not isinstance(n_menisci, int) or n_menisci < 1:
+        raise DescriptionError(
+            "divide_sliding(n_menisci)", n_menisci, "be a whole number of at least 1"
+        )
     interface, meniscus = scene.interface, scene.meniscus
     if interface.is_flat:
-        more = evolve(meniscus, count=meniscus.count * number)
+        more = evolve(meniscus, count=meniscus.count * n_menisci)
         return evolve(scene, interface=evolve(interface, meniscus=more))
     if meniscus.volume is None:
         raise DescriptionError(
@@ -237,16 +239,16 @@ def divide_sliding(scene: SlidingScene, number: int) -> SlidingScene:
             "be given to be shared out",
             unit="m3",
         )
-    root = math.sqrt(number)
+    root = math.sqrt(n_menisci)
     film, gap = prepare_scene(scene).film, scene.loading.gap
     depth = film.height(gap) - gap
-    if number > 1 and 2.0 * depth * root > film.sphere_radius:
-        most = film.sphere_radius / (2.0 * depth)
+    if n_menisci > 1 and 2.0 * depth * root > film.sphere_radius:
+        most = max(int((film.sphere_radius / (2.0 * depth)) ** 2), 1)
         raise InfeasibleError(
-            f"{number} asperities have menisci that overlap: at most {max(int(most * most), 1)} of "
-            f"them stand apart with a film of {film.height(gap):g} m at a gap of {gap:g} m"
+            f"{n_menisci} asperities have menisci that overlap: at most {most} of them stand "
+            f"apart with a film of {film.height(gap):g} m at a gap of {gap:g} m"
         )
-    more = evolve(meniscus, count=meniscus.count * number, volume=root * meniscus.volume)
+    more = evolve(meniscus, count=meniscus.count * n_menisci, volume=root * meniscus.volume)
     smaller = Interface(
         lower=_smaller(interface.lower, root), upper=_smaller(interface.upper, root), meniscus=more
     )

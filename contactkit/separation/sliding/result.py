@@ -108,7 +108,7 @@ class SlidingResult(CurveResult):
         Empty where nothing is taken as printed.
         """
         forces = [e for e in self.plan.scene.effects if isinstance(e, SlidingForce)]
-        return tuple(one for e in forces for one in e.printed(self.plan, self.duration))
+        return tuple(one for e in forces for one in e.mean_errata(self.plan, self.duration))
 
     @property
     def duration(self) -> float:

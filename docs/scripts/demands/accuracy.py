@@ -134,7 +134,7 @@ def _study(name: str, points: list[dict[str, Any]]) -> str:
         rows.append((method, p["setting"], error, _seconds(p["seconds"]), counts))
     heads = ("method", "setting", "error", "CPU seconds", "work")
     used = ", ".join(f"`{one}`" for one in study.solvers)
-    text = f"For {used}; error against {study.judge}."
+    text = f"For {used}; error against {study.judge}. `contactkit cost {name}` measures it."
     return "\n\n".join((f"### {study.title}", text, table(heads, rows)))
 
 

@@ -1,8 +1,9 @@
 """Communication steps of the injector and their errors: blocks of docs/hosts.md and docs/fmu.md.
 
 A minute, and a C compiler. The reference shares no code with the FMUs: coil, spring and a film that
-cavitates are written down again below and solved by `scipy.integrate.solve_ivp` (Radau, 1e-10). Each
-coupling is a loop over the two native FMUs as `contactkit fmu system fuel-injector` connects them.
+cavitates are written down again below and solved by `scipy.integrate.solve_ivp` (Radau, 1e-10).
+Each coupling is a loop over the two native FMUs as `contactkit fmu system fuel-injector` connects
+them.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from contactkit.models.injector.monolithic import simulate as simulate_monolithi
 from contactkit.models.injector.report.cosimulation import drive_start
 
 MU0, US = 4e-7 * math.pi, 1e-6
-FILM = ("m", "h0", "h_rel", "R", "eta", "dp_tear", "dp_hold")
+FILM = ("m", "h0", "h_rel", "R", "eta", "dp_inception", "dp_hold")
 COIL = ("R_coil", "N_turns", "A_pole", "g_air", "g_iron", "B_sat", "k_spring", "F_preload")
 VOLTAGE = ("t_delay", "t_on", "U_boost", "t_boost", "U_hold")
 
@@ -48,7 +49,7 @@ class Film:
 
     def __init__(self, p: Mapping[str, float]) -> None:
         self.eta, self.drop, self.square = p["eta"], p["dp_hold"], p["R"] ** 2
-        self.strength = p["dp_tear"]
+        self.strength = p["dp_inception"]
 
     def tension(self, gap: float, speed: float) -> float:
         """In the middle of the whole film [Pa]."""

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MU0 (4e-7 * 3.141592653589793)
+#define MU0 (4e-7 * 3.141592653589793) /* of vacuum [H/m], as coil.py has it */
 #define MOST_STEPS 250000 /* of the flux, in one step of the host: 0.1 to 0.2 s */
 #define MOST_SWITCHINGS 100000 /* of the voltage in one step of the host: some 0.1 s of them */
 #define CLOSE 1e-12         /* fraction of a step before which no pause is made */

@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-#define CK_PI 3.14159265358979323846
-
 /* A power of the gap by products: pow() of the C libraries differs in its last bits, and a table times a
    whole power is the same everywhere. */
 static double power_of(double base, int power) {

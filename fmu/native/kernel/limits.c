@@ -10,7 +10,6 @@
 #include <math.h>
 
 #define ROUND_OFF 4e-16 /* of a root: two units of the last place */
-#define CK_PI 3.14159265358979323846
 
 static void untouched(double force, ck_left *left) {
     left->value = force, left->by_force = 1.0, left->by_gap = left->by_shape = 0.0;

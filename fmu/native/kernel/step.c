@@ -9,8 +9,8 @@
 
 #include <math.h>
 
-#define R6 2.449489742783178098197284
-#define MOST_ITERATIONS 12 /* two do where forces are smooth; where more than six, a shorter step */
+#define R6 2.449489742783178098197284 /* the root of 6, of which the nodes are made */
+#define MOST_ITERATIONS 12 /* Newton takes up to six: see radau.py */
 /* Relative change over which the slopes at the start are good enough: they leave its square, 1e-8 of a
    force, in an estimate of an error. */
 #define LINEAR 1e-4

@@ -27,8 +27,8 @@
 #define DECLARE(name) static fmi2##name##TYPE *inner_##name;
 EACH(DECLARE)
 
-#define PATH 4096
-#define LINE 200
+#define PATH 4096 /* of a resource, as long as Linux takes one */
+#define LINE 200  /* of a text that the FMU holds: names of a module and of a script */
 static const char NEWEST = 19, OLDEST = 11; /* versions of Python 3 to look for */
 
 typedef struct instance {

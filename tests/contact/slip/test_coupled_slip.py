@@ -71,6 +71,7 @@ def test_the_stick_circle_does_not_depend_on_the_load():
     assert one.coupling.pressure_change == pytest.approx(other.coupling.pressure_change, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_without_tractions_in_the_gap_the_stick_circle_is_that_of_spence(monkeypatch):
     monkeypatch.setattr(
         slip_path._Run, "normal", lambda run, traction: np.zeros(run.plan.grid.shape)
@@ -156,6 +157,7 @@ def test_a_tangential_path_balances_work_elastic_energy_and_friction():
     assert stored + part.dissipated_work[-1] == pytest.approx(work, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_large_coefficients_stick_the_more_the_finer_the_steps_of_pressing():
     _, coarse = pressed(coefficient=10.0, nu=0.0, pressing_steps=2)
     _, fine = pressed(coefficient=10.0, nu=0.0, pressing_steps=8)
@@ -228,6 +230,7 @@ def test_steps_of_pressing_that_nothing_uses_are_refused():
         pressed(pressing_steps=8, pressing_rtol=0.02)
 
 
+@pytest.mark.slow
 def test_the_direction_of_the_load_turns_the_tractions():
     along, x = pressed(path=HALF)
     across, y = pressed(path=HALF, direction=0.5 * math.pi)

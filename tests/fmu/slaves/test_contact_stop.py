@@ -285,6 +285,7 @@ def test_a_slave_without_tables_says_what_it_needs():
         ContactStop(instance_name="bare", resources="").prepare()
 
 
+@pytest.mark.slow
 def test_the_command_builds_one_from_a_contact_scene(tmp_path, capsys):
     scene = tmp_path / "ball.toml"
     scene.write_text(

@@ -10,7 +10,9 @@
 
 #include "description.h"
 
-#define CK_RUPTURE_PIECES 64 /* pieces of the history that are kept */
+#define CK_PI 3.14159265358979323846 /* ISO C has none */
+/* Pieces of the history that are kept: see rupture_history.py. Each state of an FMU copies them all. */
+#define CK_RUPTURE_PIECES 64
 
 enum { CK_FULL = 0, CK_RECEDING = 1, CK_RETURNING = 2 };
 

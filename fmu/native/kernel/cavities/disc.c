@@ -5,12 +5,11 @@
 
 #include <math.h>
 
-#define CK_PI 3.14159265358979323846
 #define NARROW 0.03 /* width of the ring below which the closed form would cancel: see disc_cavity.py */
 /* Fraction of the disc within an edge that is taken for a point: the logarithm of the edge stays below
    32, and the area left out is at round-off. */
 #define SMALLEST 1e-14
-#define MOST_ITERATIONS 30 /* Newton: four or five; more only next to a film that is full again */
+#define MOST_ITERATIONS 30 /* Newton takes up to eight: see separation/cavity/stages.py */
 #define ENOUGH 1e-15       /* change of the void, over the volume of the film: round-off */
 
 static double larger(double a, double b) { return a > b ? a : b; }

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#define CK_PI 3.14159265358979323846
 /* Void over the film at which it counts as full: the edge runs into the centre like a logarithm as the
    void vanishes, which no step size follows to the end. Larger, and it is full too early. */
 #define REFORMED 1e-9
@@ -15,7 +14,7 @@
 /* Depth of the void at the edge over the gap. The edge is where the void left is that of the memory,
    a quotient of two small differences: below this round-off moves it. */
 #define SHALLOW 1e-6
-#define RECEDES 1e-6  /* flow over the edge, over that into the film, which is more than rounding */
+#define RECEDES 1e-6  /* flow over the edge, over that into the film, which is more than round-off */
 #define MOST_TRIALS 60 /* these three as in numerics/events.py, where the reasons are */
 #define QUICK 0.01
 #define MOST_SECANTS 3

@@ -5,8 +5,6 @@
 
 #include <math.h>
 
-#define CK_PI 3.14159265358979323846
-
 static double square_at(const ck_rupture_piece *p, double t) {
     return p->y[0] + t * (p->y[1] + t * (p->y[2] + t * p->y[3]));
 }
@@ -68,6 +66,8 @@ static int place(const ck_cavity *cavity, double gap, double hollow, double *whe
     double reach = CK_PI * gap, below, above, low = 0.0, high = 1.0, t;
     int index = 0, last = cavity->count - 1, i;
     const ck_rupture_piece *history = cavity->history, *p;
+    /* Outwards, to the first edge that holds the void: where the gap of rupture is above the present one
+       the void falls again, as liquid is back. */
     while (index < last && reach * history[index + 1].y[0] - history[index + 1].before < hollow) {
         index++;
     }

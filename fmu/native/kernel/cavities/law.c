@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#define CK_PI 3.14159265358979323846
 /* Of the error of the grid: a cavity that grows has kinks in its force, cell by cell, which finer steps
    would follow (separation/face/cavity.py). */
 #define PER_STEP 0.1

@@ -9,7 +9,7 @@
 /* Of the travel, the first step. Just after its inception a cavity spreads as a root of time; too long a
    step is rejected, too short ones grow eightfold. */
 #define FIRST 1e-3
-#define EVENT 1e-10 /* what an event may be missed by: less than the error of the void, `VOID` */
+#define EVENT 1e-10 /* what an event may be missed by: see separation/cavity/path.py */
 
 typedef struct {
     const ck_path *path;

@@ -114,6 +114,8 @@ void ck_double_percents(const char *message, char *safe, size_t size) {
 #define STORE(value, to) __atomic_store_n(&(value), (to), __ATOMIC_RELEASE)
 #endif
 
+/* Instances, and states, that a library has at a time. A handle is the number of its slot beside that
+   of its use, so that one that was freed is never taken for a later one; 1 MB for each kind. */
 #define SLOTS 65536u
 
 typedef struct {

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#define PI 3.14159265358979323846
+#define PI 3.14159265358979323846 /* ISO C has none */
 
 ck_root ck_root_after(const ck_root *root, double elapsed) {
     ck_root later = *root;
