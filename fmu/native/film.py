@@ -168,7 +168,8 @@ def _film(common: _Common, fraction: float) -> Film:
 def can_cavitate(scene: SeparationScene) -> bool:
     """Whether the film of a scene may have a cavity that is remembered.
 
-    One between discs may in any case; on another face one whose scene says so, as it takes a grid.
+    One between discs may in any case; one on another face where the scene has a `TensionLimit`, as
+    it takes a grid.
     """
     interface = scene.interface
     if scene.effect(ViscousForce) is None:

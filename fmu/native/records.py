@@ -125,7 +125,7 @@ class Cells(Record):
     relief: tuple[float, ...] = column("gap beside the shortest distance of the faces [m]")
     extra: tuple[float, ...] = column("volume that a pocket has besides its gap [m3]")
     rim: tuple[float, ...] = column("conductance to the rim over h^3/(12 eta) [-]")
-    excess: tuple[float, ...] = column("share of its source that lies beyond the flux there [-]")
+    excess: tuple[float, ...] = column("fraction of its source beyond the flux there [-]")
 
 
 @frozen(kw_only=True)
@@ -144,7 +144,7 @@ class PocketSides(Record):
     cell: tuple[float, ...] = column("the cell of film")
     pocket: tuple[float, ...] = column("the pocket")
     geometry: tuple[float, ...] = column("conductance over h^3/(12 eta) [-]")
-    excess: tuple[float, ...] = column("share of the source of the cell beyond the flux there [-]")
+    excess: tuple[float, ...] = column("fraction of its source beyond the flux there [-]")
 
 
 @frozen(kw_only=True)
