@@ -168,3 +168,15 @@ def test_a_tension_that_is_set_is_that_at_which_it_cavitates(native):
     assert host.step(4e-5) == OK
     assert host.get("V_void") == 0.0
     assert host.get("F") == pytest.approx(20.0, rel=1e-2)
+
+
+def test_a_scene_file_says_how_fine_its_grid_is(tmp_path, monkeypatch):
+    from contactkit.app.fmu_files import Order, build_fmu
+    from contactkit.fmu.native import build
+
+    asked = {}
+    monkeypatch.setattr(build, "build_native", lambda *given, **more: asked.update(more))
+    place = tmp_path / "ring.toml"
+    ck.save_scene(cavitating(RING), place)
+    build_fmu(Order(str(place), ("accuracy.film_rtol=0.02",), tmp_path / "x.fmu", True, None, "2"))
+    assert asked["film_rtol"] == 0.02
