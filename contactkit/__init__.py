@@ -24,6 +24,8 @@ separation: speed imposed, gap 5e-06 m to 2.5e-05 m
   off  van-der-waals-force van der Waals attraction of the solids
   off  adhesive-contact    adhesion of a sphere that has touched
   off  asperity-menisci    menisci at the summits of a rough face
+  off  elastic-bodies      the bodies deform under the pressure of film, meniscus and contact
+  off  solid-contact       asperities carry the bodies at a cut-off gap
   the liquid cavitates 10 bar below ambient, a cavity is 1.01325 bar below it
 """
 
@@ -37,6 +39,10 @@ from ._version import __version__ as __version__
 if TYPE_CHECKING:
     from .accuracy import Accuracy
     from .analyses.adhesion_curve import adhesion_curve
+    from .analyses.deforming.modulus import modulus_curve
+    from .analyses.deforming.pull_off_speed import pull_off_over_speed
+    from .analyses.deforming.release import release_over
+    from .analyses.deforming.stiction import stiction_table
     from .analyses.division import critical_meniscus, divide_meniscus
     from .analyses.humidity_curve import humidity_curve
     from .analyses.load_curve import load_curve
@@ -94,6 +100,7 @@ if TYPE_CHECKING:
         ImposedForce,
         ImposedSpeed,
         ImposedTime,
+        PressAndPull,
         Pressing,
         Sliding,
         TangentialStep,
@@ -125,6 +132,9 @@ if TYPE_CHECKING:
     from .scene.scenes import ContactScene, SeparationScene, SlidingScene
     from .scene.surfaces import Flat, Paraboloid, Sphere, Wave
     from .scene.window import Window
+    from .separation.deforming.effects import ElasticBodies, SolidContact
+    from .separation.deforming.plan import DeformingPlan
+    from .separation.deforming.result import DeformingResult
     from .separation.effects.adhesion import AdhesiveContact, VanDerWaalsForce
     from .separation.effects.asperities import AsperityMenisci
     from .separation.effects.base import FilmStatus, LimitKind
@@ -192,6 +202,7 @@ _HOMES = {
     "ImposedForce": "scene.loading",
     "ImposedSpeed": "scene.loading",
     "ImposedTime": "scene.loading",
+    "PressAndPull": "scene.loading",
     "InfeasibleError": "errors",
     "InstalledKindWarning": "errors",
     "Interface": "scene.interface",
@@ -230,6 +241,10 @@ _HOMES = {
     "Sector": "scene.planforms",
     "SelfAffineRoughness": "scene.rough_surfaces",
     "SeparationResult": "separation.results",
+    "DeformingPlan": "separation.deforming.plan",
+    "DeformingResult": "separation.deforming.result",
+    "ElasticBodies": "separation.deforming.effects",
+    "SolidContact": "separation.deforming.effects",
     "SeparationScene": "scene.scenes",
     "ShearLimit": "separation.effects.viscous",
     "Sliding": "scene.loading",
@@ -273,6 +288,10 @@ _HOMES = {
     "press": "contact.press",
     "published": "as_published.lookup",
     "pull_off_curve": "analyses.pull_off",
+    "modulus_curve": "analyses.deforming.modulus",
+    "pull_off_over_speed": "analyses.deforming.pull_off_speed",
+    "release_over": "analyses.deforming.release",
+    "stiction_table": "analyses.deforming.stiction",
     "read_curve": "files.curves",
     "register": "kinds",
     "save_result": "files.results",
@@ -305,11 +324,14 @@ __all__ = [
     "ContinuousHardness",
     "ConvergenceError",
     "CouetteForce",
+    "DeformingPlan",
+    "DeformingResult",
     "DescriptionError",
     "Difference",
     "Disc",
     "DugdaleAttraction",
     "EFFECTS",
+    "ElasticBodies",
     "Ellipse",
     "ExponentialAttraction",
     "FilmMeniscus",
@@ -353,6 +375,7 @@ __all__ = [
     "Planform",
     "PlasticHistory",
     "Polygon",
+    "PressAndPull",
     "Pressing",
     "Pull",
     "Range",
@@ -372,6 +395,7 @@ __all__ = [
     "SlidingPlan",
     "SlidingResult",
     "SlidingScene",
+    "SolidContact",
     "Sphere",
     "SpringSlider",
     "Stack",
@@ -404,13 +428,16 @@ __all__ = [
     "load_material",
     "load_result",
     "load_scene",
+    "modulus_curve",
     "plan",
     "plan_study",
     "press",
     "published",
     "pull_off_curve",
+    "pull_off_over_speed",
     "read_curve",
     "register",
+    "release_over",
     "save_result",
     "save_scene",
     "sensitivity",
@@ -418,6 +445,7 @@ __all__ = [
     "solve",
     "squeeze_time",
     "stick_slip",
+    "stiction_table",
     "stream_study",
     "study",
 ]

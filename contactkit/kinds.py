@@ -70,6 +70,8 @@ SEPARATION_EFFECTS: Registry[Any] = _effects(
         "van-der-waals-force": "separation.effects.adhesion:VanDerWaalsForce",
         "adhesive-contact": "separation.effects.adhesion:AdhesiveContact",
         "asperity-menisci": "separation.effects.asperities:AsperityMenisci",
+        "elastic-bodies": "separation.deforming.effects:ElasticBodies",
+        "solid-contact": "separation.deforming.effects:SolidContact",
     },
 )
 SLIDING_EFFECTS: Registry[Any] = _effects(
@@ -126,6 +128,7 @@ SEPARATION_LOADINGS: Registry[Any] = _loadings(
         "imposed-speed": "scene.loading:ImposedSpeed",
         "imposed-force": "scene.loading:ImposedForce",
         "imposed-time": "scene.loading:ImposedTime",
+        "press-and-pull": "scene.loading:PressAndPull",
     },
 )
 CONTACT_LOADINGS: Registry[Any] = _loadings(

@@ -34,7 +34,7 @@ class _Kind(NamedTuple):
 _SIMULATE = "separation.simulate:simulate"
 _KINDS: dict[type[Scene], _Kind] = {
     ContactScene: _Kind("contact.plan:plan_contact", "contact.solve:solve"),
-    SeparationScene: _Kind("separation.plan:plan", _SIMULATE, True),
+    SeparationScene: _Kind("separation.any_plan:plan_any", _SIMULATE, True),
     SlidingScene: _Kind("separation.sliding.plan:plan_sliding", _SIMULATE, True),
 }
 

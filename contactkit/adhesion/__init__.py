@@ -7,5 +7,6 @@ parameters      Maugis' units, Tabor and transition parameters.
 jkr             JKR: attraction inside the contact only.
 dmt             DMT: attraction outside a contact of Hertzian shape.
 maugis_dugdale  Maugis-Dugdale: the transition between both.
+wet_contact     Elastic contact in a meniscus of given pressure, by Maugis-Dugdale.
 contact_models  The three as classes: pull-off, and states over gap and load.
 """

@@ -10,6 +10,7 @@ heights            Heights of a surface on a grid, without a contact.
 load_curve         A contact under a series of loads or approaches, and its cost.
 load_for           Load at which a contact reaches a given area, or yields first.
 subsurface         Stress below a contact that is solved already, for any friction.
+deforming          Films between deforming bodies: over speed, rest, humidity, frequency.
 stick_slip         Stick-slip of a block that is pulled through a spring.
 load_displacement  Load-displacement curve of a rough contact: loading, unloading, impact.
 """

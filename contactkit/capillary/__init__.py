@@ -3,6 +3,7 @@
 kelvin            Kelvin's equation and capillary condensation.
 exact             Exact axisymmetric bridges (Delaunay surfaces), their stability limits.
 arc               Bridges in the circular (toroidal) approximation.
+elastic_bridge    Bridge between a sphere and a flat that it draws in: closed forms, snap-in.
 flats             Force law of the exact bridge between flats, tabulated.
 contact_radius    Volume of a bridge between flats from its contact radius.
 condensed         Capillary condensation on many spheres near a flat.

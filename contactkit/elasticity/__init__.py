@@ -10,6 +10,7 @@ love             Uniform pressure on a rectangle: Love's influence coefficients.
 point_load       Surface displacement under a point load, tabulated over the radius.
 influence        Influence coefficients of non-periodic contacts.
 one_axis         Influence coefficients of windows that repeat along one axis.
+rings            Displacement under axisymmetric pressures that are linear between rings.
 hardness_rules   Hardness of a layered solid over the depth of indentation.
 tangential       Tangential displacement under tangential tractions, on a grid.
 tangential_one_axis

@@ -8,6 +8,8 @@ meniscus_amount  Amount of liquid that a file gives by a contact radius, or by a
 unstructure      Scene objects to tables of plain values, and the names of their kinds in files.
 csv_rows         Rows of CSV files, without formulas.
 results          Result files: npz with a JSON header, and CSV.
+deforming_results
+                 Results of deforming bodies as arrays and a header, and back.
 curves           Saved curves: columns with their units, numbers and sources, and back.
 contact_results  Contact results as arrays and a header of plain values, and back.
 """

@@ -21,6 +21,7 @@ from ..reading.texts import from_json
 from ..scene.result import Result
 from ..scene.scenes import SeparationScene, SlidingScene
 from ..separation.curve_result import Work
+from ..separation.deforming.result import DeformingResult
 from ..separation.motion.state import MotionState, restored_state
 from ..separation.plan import Plan, plan
 from ..separation.results import SeparationResult, extremes_of, pulls_of_cycles
@@ -31,6 +32,7 @@ from ..separation.validity import check
 from ..validity import ValidityNumber
 from .contact_results import pack_contact, unpack_contact
 from .csv_rows import csv_line
+from .deforming_results import pack_deforming, unpack_deforming
 from .scenes import structure, unstructure, write_whole
 from .structure import renamed
 
@@ -39,7 +41,7 @@ if TYPE_CHECKING:
 
     Arrays = dict[str, NDArray[Any]]
 
-AnyResult = SeparationResult | SlidingResult | ContactResult
+AnyResult = SeparationResult | DeformingResult | SlidingResult | ContactResult
 R = TypeVar("R", bound=Result)
 
 __all__ = [
@@ -67,7 +69,7 @@ def save_result(result: Result, path: str | Path) -> Path:
 
     Parameters
     ----------
-    result : SeparationResult, SlidingResult or ContactResult
+    result : SeparationResult, DeformingResult, SlidingResult or ContactResult
         The result: its curves or maps as arrays, the arrays that its scene and its effects
         hold, and as ``header`` a JSON text with the scene, the accuracy, the status and the
         numbers.
@@ -151,6 +153,8 @@ def _pack(result: Result) -> tuple[dict[str, Any], Mapping[str, Any]]:
         header, columns = pack_contact(result)
     elif isinstance(result, SlidingResult):
         header, columns = _pack_sliding(result), dict(result.columns)
+    elif isinstance(result, DeformingResult):
+        header, columns = pack_deforming(result)
     elif isinstance(result, SeparationResult):
         header, columns = _pack_separation(result), dict(result.columns)
     else:
@@ -189,6 +193,8 @@ def _unpacked(header: dict[str, Any], columns: Arrays, name: str) -> AnyResult:
     """Result of the kind that its header names."""
     if header.get("kind") == "contact":
         return unpack_contact(header, columns, name)
+    if header.get("kind") == "deforming":
+        return unpack_deforming(header, columns, name)
     if header.get("kind") == "curve":
         raise ValueError("it is a curve, which read_curve reads")
     if header.get("kind") == "sliding":

@@ -9,5 +9,7 @@ couette_flat      Couette film between sliding flats; contact-angle hysteresis.
 couette_sphere    Couette film under a sliding sphere.
 couette_reynolds  Sphere sliding in a round film: drag from Reynolds' equation.
 dimensionless     Dimensionless numbers for the range of validity.
+elastohydrodynamic
+                  Films of axisymmetric bodies that deform: cavities, contact, moving rims.
 reynolds          Reynolds' equation in 2-D: any face, any gap, cavities with memory.
 """

@@ -6,6 +6,7 @@ roots           Bracketed roots: false position, Newton, bisection of a conditio
 quadrature      Gauss-Legendre and Gauss-Lobatto rules on the unit interval.
 step_size       Step-size control: the next length of a step from the error of the last one.
 events          Events inside a step: which is met first, and the step that ends there.
+radau_tableau   Numbers of the methods Radau IIA: nodes, weights, estimate of the error.
 three           Linear systems of three equations, for the stages of a step.
 cubic_spline    A cubic spline through points.
 monotone_cubic  Curves through points that keep the order of their values.

@@ -14,6 +14,7 @@ adhesion    Load and area over the approach of contacts under adhesion.
 load_displacement Load-displacement curves: first loading and unloading.
 roughness   Rough surfaces: area over load beside theories, spectra, patches.
 separation  Separations and slidings: gap and forces, cycles, reference scales.
+deforming   Separations of deforming bodies: loop, gaps, sections, energies.
 film        Films on faces: pressure, liquid fraction; animations.
 curves      Any curves of a result along one axis.
 study       Studies: numbers over a parameter, bands over seeds.

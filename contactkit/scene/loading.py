@@ -34,6 +34,7 @@ __all__ = [
     "ImposedTime",
     "Imposed",
     "Loading",
+    "PressAndPull",
     "Pressing",
     "SeparationLoading",
     "Sliding",
@@ -263,6 +264,56 @@ class ImposedForce(SeparationLoading):
         if self.mass is None:
             raise PlanError("a motion with inertia needs loading.mass [kg]: give the moving mass")
         return self.mass
+
+
+@frozen(kw_only=True)
+class PressAndPull(SeparationLoading):
+    """A load that presses for a time, and then a pull: at a speed, or by a force.
+
+    The bodies begin at rest at `initial_gap`, are pressed towards each other for `rest`, and pulled
+    from wherever they are then. Exactly one of `speed` and `force` is given.
+
+    Parameters
+    ----------
+    press : float
+        Load [N] from the start, positive.
+    rest : float
+        How long it presses [s].
+    speed : float, optional
+        Opening speed of the pull [m/s].
+    force : float, optional
+        Pull [N], in place of the load from then on.
+    initial_gap, final_gap : float
+        Gap at the start and gap at which the bodies count as separated [m].
+    time_limit : float
+        Longest time to wait for separation after the rest [s].
+
+    Examples
+    --------
+    >>> PressAndPull(press=0.01, rest=10.0, speed=1e-5, initial_gap=1e-6, final_gap=1e-5).summary
+    'pressed by 0.01 N for 10 s, then pulled at 1e-05 m/s, gap 1e-06 m to 1e-05 m'
+    """
+
+    kind: ClassVar[str] = "press-and-pull"
+    imposed: ClassVar[str] = "load and pull"
+
+    press: float = field(validator=positive, metadata=si("N"))
+    rest: float = field(validator=positive, metadata=si("s"))
+    speed: float | None = field(default=None, validator=optional(positive), metadata=si("m/s"))
+    force: float | None = field(default=None, validator=optional(positive), metadata=si("N"))
+    time_limit: float = field(default=3600.0, validator=positive, metadata=si("s"))
+
+    def __attrs_post_init__(self) -> None:
+        _exactly_one(self, speed="m/s", force="N")
+
+    @property
+    def summary(self) -> str:
+        """See `Loading.summary`."""
+        pull = f"at {self.speed:g} m/s" if self.force is None else f"by {self.force:g} N"
+        return (
+            f"pressed by {self.press:g} N for {self.rest:g} s, then pulled {pull}, "
+            f"gap {self.initial_gap:g} m to {self.final_gap:g} m"
+        )
 
 
 # --- Contact --------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """Separation and sliding of wetted surfaces: plan, simulate, result.
 
 effects        Forces, limits and ends of the film that a scene may list.
+any_plan       Plan by the engine that the effects ask for: rigid or deforming bodies.
 plan           Plan of a separation: the checked scene, its liquid, and each effect prepared once.
 bodies         Checks of the two bodies: rigid, flats or spheres, with room for the film.
 face           Film on a face that is no disc: damping law, and cavity on a grid.
@@ -21,5 +22,6 @@ results        Result of a separation: curves, numbers, ranges of validity, and 
 columns        Curves of the motion and of the state of the film.
 scales         Reference scales: capillary force, viscous impulse, time.
 validity       Numbers of validity along a run.
+deforming      Separation of bodies that deform while a film is between them.
 sliding        One wetted surface sliding past another.
 """

@@ -16,7 +16,7 @@ from ..liquids.liquid import LiquidState
 from ..registry import Registry
 from ..scene.column import Column
 from ..scene.effect import check_listed
-from ..scene.loading import ImposedForce, ImposedTime
+from ..scene.loading import ImposedForce, ImposedTime, PressAndPull
 from ..scene.plan import ScenePlan
 from ..scene.scenes import SeparationScene
 from ..units import nm, quantity_text
@@ -236,6 +236,11 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
         If the scene has no answer.
     """
     kinds = check_listed(scene.effects, SeparationEffect, "separation", SEPARATION_EFFECTS)
+    if isinstance(scene.loading, PressAndPull):
+        raise PlanError(
+            "loading = PressAndPull(...) needs ElasticBodies() among the effects: rigid bodies "
+            "that are pressed stop at nothing but a rest_gap, see ImposedForce"
+        )
     check_bodies(scene)
     liquid = scene.meniscus.liquid.at(scene.temperature)
     _check_effects(scene, kinds, liquid)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable
-from typing import overload
+from typing import TYPE_CHECKING, overload
 
 from ..errors import ConvergenceError, InfeasibleError, PlanError
 from ..scene.loading import ImposedForce, ImposedSpeed, ImposedTime
-from ..scene.plan import check_plan
+from ..scene.plan import ScenePlan, check_plan
 from ..units import quantity_text
 from ..validity import warn
 from .curve_result import Work
@@ -26,6 +26,10 @@ from .sliding.run import slide
 from .validity import check
 from .vibration.run import vibrating
 
+if TYPE_CHECKING:
+    from .deforming.plan import DeformingPlan
+    from .deforming.result import DeformingResult
+
 __all__ = ["advance", "simulate"]
 
 Progress = Callable[[float], None]
@@ -40,18 +44,27 @@ def simulate(
 
 @overload
 def simulate(
+    plan: DeformingPlan, *, throw: bool = True, progress: Progress | None = None
+) -> DeformingResult: ...
+
+
+@overload
+def simulate(
     plan: SlidingPlan, *, throw: bool = True, progress: Progress | None = None
 ) -> SlidingResult: ...
 
 
 def simulate(
-    plan: Plan | SlidingPlan, *, throw: bool = True, progress: Progress | None = None
-) -> SeparationResult | SlidingResult:
+    plan: Plan | DeformingPlan | SlidingPlan,
+    *,
+    throw: bool = True,
+    progress: Progress | None = None,
+) -> SeparationResult | DeformingResult | SlidingResult:
     """Run a plan.
 
     Parameters
     ----------
-    plan : Plan or SlidingPlan
+    plan : Plan, DeformingPlan or SlidingPlan
         What to run.
     throw : bool
         Raise where an integration does not reach its tolerance, or where a force pushes a mass that
@@ -62,7 +75,7 @@ def simulate(
 
     Returns
     -------
-    SeparationResult or SlidingResult
+    SeparationResult, DeformingResult or SlidingResult
         Curves, numbers, validity and cost.
 
     Raises
@@ -72,6 +85,13 @@ def simulate(
     InfeasibleError
         If the force is negative, so that it never opens the gap.
     """
+    if not isinstance(plan, Plan | SlidingPlan) and isinstance(plan, ScenePlan):
+        from .deforming.plan import DeformingPlan  # for such a plan alone
+
+        if isinstance(plan, DeformingPlan):
+            from .deforming.run import pull_apart
+
+            return pull_apart(plan)
     check_plan(plan, (Plan, SlidingPlan))
     begun = clock.perf_counter()
     if isinstance(plan, SlidingPlan):

@@ -68,7 +68,13 @@ from contactkit.models.micromirror.electrostatics import Electrode
 from contactkit.models.micromirror.mirror import Hinge, SpringTips, Waveform
 from contactkit.models.micromirror.scene import MirrorStudy
 from contactkit.scene.interface import Body
-from contactkit.separation.effects.base import Effect, FilmEnd, FilmLimit, SeparationForce
+from contactkit.separation.effects.base import (
+    CoupledEffect,
+    Effect,
+    FilmEnd,
+    FilmLimit,
+    SeparationForce,
+)
 from contactkit.separation.sliding.effects import SlidingForce
 
 FMUS: Mapping[str, type[PortSlave]] = {
@@ -92,6 +98,7 @@ ROLES: Mapping[type, str] = {
     SeparationForce: "force",
     FilmLimit: "limit",
     FilmEnd: "end of the film",
+    CoupledEffect: "coupled with the film",
     SlidingForce: "force along the bodies",
     Compliance: "compliance",
     PressureBound: "pressure bound",

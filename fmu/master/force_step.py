@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import math
 
+from ...numerics.radau_tableau import WEIGHTS
 from ...separation.integrator.radau import Forces, Problem, against_halves, step
 from ...separation.integrator.radau import Point as Motion
-from ...separation.integrator.tableau import WEIGHTS
 from .impulse_step import Body, Doubled, Passing, Point, given
 from .sides import FilmSide, Force, Pull, Pulling
 

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from ...errors import PlanError
 from ...lubrication.disc_cavity import receding_edge
 from ...lubrication.rupture_history import cut, liquid_within, outermost, piece_along, void_within
+from ...numerics.radau_tableau import NODES
 from ...separation.cavity.law import Cavitation, CavityLaw
 from ...separation.cavity.stages import force_at, spot_at
 from ...separation.cavity.state import FULL, Cavity, Phase
-from ...separation.integrator.tableau import NODES
 
 __all__ = [
     "round_cavity",

@@ -32,6 +32,7 @@ from contactkit.contact.effects.base import (
 )
 from contactkit.kinds import TEMPERATURE_LAWS
 from contactkit.separation.effects.base import (
+    CoupledEffect,
     Effect,
     FilmEnd,
     FilmLimit,
@@ -74,6 +75,7 @@ SCENE_OBJECTS = [
     ck.ImposedForce,
     ck.ImposedSpeed,
     ck.ImposedTime,
+    ck.PressAndPull,
     ck.Paraboloid,
     ck.Pressing,
     ck.SelfAffineRoughness,
@@ -164,6 +166,7 @@ def test_every_scene_object_is_described():
     scene_objects = {kind for kind in public if isinstance(kind, type) and attrs.has(kind)}
     # While running, not described.
     made = {ck.Plan, ck.ContactPlan, ck.SlidingPlan, ck.MotionState, ck.Pull}
+    made |= {ck.DeformingPlan, ck.DeformingResult}
     made |= {ck.SeparationResult, ck.ContactResult, ck.SlidingResult, ck.SavedCurve}
     assert scene_objects - made <= {*DESCRIBED}
 
@@ -240,6 +243,7 @@ ROLES = (
     SlidingForce,
     FilmLimit,
     FilmEnd,
+    CoupledEffect,
     Compliance,
     PressureBound,
     LoadHistory,

@@ -16,6 +16,8 @@ import numpy as np
 import pytest
 
 import contactkit as ck
+from contactkit.analyses.deforming.release import ReleaseCurve
+from contactkit.analyses.deforming.stiction import StictionTable
 from contactkit.fmu.master.couple import Coupled
 from contactkit.fmu.master.injector import CoSimulation
 from contactkit.fmu.slaves.stiction_mass import StictionMass
@@ -137,6 +139,18 @@ def cosimulation():
     return CoSimulation(*signals(), ports, ("a line",), 2, 0.1)
 
 
+def deforming():
+    gel = ck.Body(
+        surface=ck.Flat(radius=5e-4), solid=ck.Material(young_modulus=1e6, poisson_ratio=0.5)
+    )
+    oil = ck.Meniscus(liquid=ck.Liquid(name="oil", viscosity=0.1))
+    return ck.SeparationScene(
+        interface=ck.Interface(lower=gel, upper=ck.Sphere(radius=5e-3), meniscus=oil),
+        loading=ck.ImposedSpeed(speed=1e-5, initial_gap=1e-6, final_gap=2e-6),
+        effects=(ck.ElasticBodies(), ck.ViscousForce()),
+    )
+
+
 MADE = {
     "separation plan": lambda: ck.plan(film()),
     "sliding plan": lambda: ck.plan(sliding()),
@@ -146,6 +160,12 @@ MADE = {
     "curve": lambda: ck.simulate(ck.plan(film())),
     "motion": lambda: ck.simulate(ck.plan(pulled())),
     "sphere": lambda: ck.simulate(ck.plan(sphere(ck.MeniscusForce()))),
+    "deforming": lambda: ck.simulate(ck.plan(deforming())),
+    "deforming plan": lambda: ck.plan(deforming()),
+    "moduli": lambda: ck.modulus_curve(deforming(), [1.0]),
+    "pull-off over speed": lambda: ck.pull_off_over_speed(deforming(), [1e-5]),
+    "release": lambda: ReleaseCurve("force", *np.ones((4, 2))),
+    "stiction": lambda: StictionTable(*np.ones((5, 2))),
     "slide": lambda: ck.simulate(ck.plan(sliding())),
     "contact with every effect": all_effects,
     "study": lambda: ck.study(rough(), {"loading.pressure": [1e5, 2e5]}, GRID, keep_maps=True),

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import contactkit as ck
 from contactkit.lubrication import squeeze_film
+from contactkit.numerics.radau_tableau import NODES, WEIGHTS
 from contactkit.separation.integrator.dense_output import peak, work
 from contactkit.separation.integrator.radau import (
     Forces,
@@ -20,7 +21,6 @@ from contactkit.separation.integrator.radau import (
     relative_error,
     step,
 )
-from contactkit.separation.integrator.tableau import NODES, WEIGHTS
 from contactkit.separation.motion.state import start
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from ...separation.deforming.result import DeformingResult
 from ...separation.effects.base import effects_of
 from ...separation.results import SeparationResult
 from ...separation.sliding.result import SlidingResult
-from .. import separation
+from .. import deforming, separation
 from ..style import Axes
 from .base import CurveFigures, of_absent_effects, registered_figures
 
-__all__ = ["SeparationFigures", "SlidingFigures"]
+__all__ = ["DeformingFigures", "SeparationFigures", "SlidingFigures"]
 
 
 @registered_figures.register(SeparationResult)
@@ -43,6 +44,30 @@ class SeparationFigures(CurveFigures[SeparationResult]):
     def scaled(self, *names: str, over: str = "gap", ax: Axes | None = None) -> Axes:
         """Draw curves over another one, each in units of its reference scale."""
         return separation.over_scales(self._owner, names, ax, over)
+
+
+@registered_figures.register(DeformingResult)
+class DeformingFigures(CurveFigures[DeformingResult]):
+    """Figures of a separation of deforming bodies."""
+
+    def _hidden(self) -> frozenset[str]:
+        return of_absent_effects(self._owner.plan)
+
+    def loop(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the forces over the gap of the undeformed bodies."""
+        return deforming.loop(self._owner, ax)
+
+    def gaps(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the gaps over time."""
+        return deforming.gaps(self._owner, ax)
+
+    def sections(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the gap over the radius at five instants."""
+        return deforming.sections(self._owner, ax)
+
+    def energies(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the energies over time."""
+        return deforming.energies(self._owner, ax)
 
 
 @registered_figures.register(SlidingResult)

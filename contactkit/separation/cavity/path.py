@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from ...errors import ConvergenceError
 from ...numerics.events import EventStep
+from ...numerics.radau_tableau import NODES, WEIGHTS
 from ...numerics.step_size import StepSize
-from ..integrator.tableau import NODES, WEIGHTS
 from .events import first_event, is_inception
 from .law import Cavitation, SolvedStages
 from .state import Cavity, Phase

@@ -18,8 +18,8 @@ from typing import NamedTuple
 
 from ...lubrication.disc_cavity import film_ring, inflow, receding_edge
 from ...lubrication.rupture_history import edge_of
+from ...numerics.radau_tableau import ERROR, GAMMA, STAGES
 from ...numerics.three import Three, solved_three
-from ..integrator.tableau import ERROR, GAMMA, STAGES
 from .disc_film import DiscFilm
 from .state import Cavity, Phase
 

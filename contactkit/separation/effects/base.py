@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "LIMIT",
+    "CoupledEffect",
     "FilmEnd",
     "FilmLimit",
     "FilmStatus",
@@ -334,6 +335,16 @@ class FilmEnd(SeparationEffect):
     @abc.abstractmethod
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> float:
         """Gap at which the film breaks [m]; inf for never."""
+
+
+@frozen(kw_only=True)
+class CoupledEffect(SeparationEffect):
+    """Physics that is solved together with the film and the motion, and has no law of its own.
+
+    A scene that lists one is planned by `separation.deforming`.
+    """
+
+    takes_pressure: ClassVar[bool] = True
 
 
 def effects_of(scene: SeparationScene | SlidingScene) -> tuple[SeparationEffect, ...]:

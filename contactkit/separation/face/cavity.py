@@ -18,11 +18,11 @@ from attrs import field, frozen
 
 from ...lubrication.reynolds.film import GridFilm, GridFilmState
 from ...lubrication.reynolds.solve import unchecked_step
+from ...numerics.radau_tableau import NODES
 from ..cavity.events import is_inception
 from ..cavity.law import Place
 from ..cavity.stages import CavityForce, ShownCavity
 from ..cavity.state import FULL, Cavity, Phase
-from ..integrator.tableau import NODES
 from .film import FaceFilm
 from .grid import FaceGrid
 from .held_voids import FirstOpening, HeldVoids, Nearby

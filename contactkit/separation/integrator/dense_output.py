@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ...numerics.quadrature import gauss_legendre
+from ...numerics.radau_tableau import NODES, WEIGHTS
 from .radau import Point, Step, coordinate
-from .tableau import NODES, WEIGHTS
 
 __all__ = ["peak", "work"]
 

@@ -28,8 +28,8 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
+from ...numerics.radau_tableau import BACK, BACK_SLOPE, END_SLOPE, ERROR, GAMMA, NODES, STAGES
 from ...numerics.three import Three, solved_three
-from .tableau import BACK, BACK_SLOPE, END_SLOPE, ERROR, GAMMA, NODES, STAGES
 
 __all__ = [
     "Forces",

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 
 from ...errors import ConvergenceError, DescriptionError
 from ...numerics.events import EventStep, step_to_event
+from ...numerics.radau_tableau import NODES, WEIGHTS
 from ...numerics.roots import first_true
 from ...numerics.step_size import StepSize
 from ..cavity.state import FULL, Phase
@@ -24,7 +25,6 @@ from ..integrator.radau import (
     relative_error,
     step,
 )
-from ..integrator.tableau import NODES, WEIGHTS
 from ..plan import Film, Plan
 from .cavity import after, cavity_film, cut_at_event, cut_before_step
 from .events import SAME, apply_event, next_event

@@ -1,0 +1,10 @@
+"""Elastohydrodynamic films of axisymmetric bodies: deformation, cavities, contact, moving rims.
+
+mesh      Rings: nodes, areas, conductances.
+drive     An imposed gap, or forces on a mass with a spring.
+wet_gap   Film, contact and motion as equations of one unknown, in units of viscosity 1.
+step      One implicit step: Radau IIA, semismooth Newton, error estimate.
+follow    Adaptive steps; the rupture of a film stronger than a cavity.
+motion    Motion of smooth bodies in SI units, extrapolated from three meshes.
+response  Storage and loss modulus over the frequency.
+"""

@@ -1,0 +1,353 @@
+"""Plan of a separation of deforming bodies: the film on rings, its numbers, and what they mean."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from attrs import field, frozen
+
+from ...accuracy import Accuracy
+from ...capillary import elastic_bridge
+from ...elasticity import rings
+from ...elasticity.layer_stack import Layers
+from ...errors import InfeasibleError, PlanError
+from ...kinds import SEPARATION_EFFECTS
+from ...lubrication.elastohydrodynamic.motion import SmoothGap
+from ...registry import Registry
+from ...scene.column import Column
+from ...scene.effect import check_listed
+from ...scene.loading import ImposedForce, ImposedSpeed, PressAndPull
+from ...scene.plan import ScenePlan
+from ...scene.scenes import SeparationScene
+from ...units import quantity_text
+from ..effects.base import SeparationEffect
+from ..effects.viscous import TensionLimit
+from .checks import check_deforming
+from .effects import SolidContact
+from .numbers import DecidingNumbers, deciding_numbers, hertz_approach, rest_number
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ...liquids.liquid import LiquidState
+
+__all__ = ["COLUMNS", "DeformingPlan", "characteristic_speed", "plan_deforming"]
+
+COLUMNS: Mapping[str, Column] = MappingProxyType(
+    {
+        column.name: column
+        for column in (
+            Column("time", "s", "time"),
+            Column("gap", "m", "gap of the undeformed bodies", "#7f7f7f", "--"),
+            Column("speed", "m/s", "opening speed", "#7f7f7f"),
+            Column("centre_gap", "m", "gap on the axis", "#1f4e79"),
+            Column("mean_gap", "m", "mean gap", "#1f4e79", ":"),
+            Column("smallest_gap", "m", "smallest gap", "#00798c"),
+            Column("pull", "N", "pull", "#6a4c93"),
+            Column("film_force", "N", "force of the film", "#c1440e"),
+            Column("contact_force", "N", "force of the contact", "#2a9d8f"),
+            Column("meniscus_force", "N", "force of the meniscus at this rim", "#1f4e79", ":"),
+            Column("largest_tension", "Pa", "largest tension in the film", "#c1440e"),
+            Column("rim_radius", "m", "radius of the rim", "#1f4e79"),
+            Column("contact_area", "m2", "area of contact", "#2a9d8f"),
+            Column("wet_area", "m2", "area of the film", "#1f4e79"),
+            Column("void_volume", "m3", "void in the film", "#00798c"),
+            Column("liquid_volume", "m3", "liquid in the film", "#1f4e79"),
+            Column("elastic_energy", "J", "energy in the bodies", "#e9c46a"),
+            Column("work", "J", "work of the pull", "#6a4c93"),
+            Column("dissipated_energy", "J", "energy dissipated by the film", "#c1440e"),
+        )
+    }
+)
+"""Curves of a separation of deforming bodies, by their names."""
+
+# Widths of the pressure at the final gap up to which the film of a sphere without a rim is solved:
+# its force lacks 2/60^2, 6e-4 of that at the final gap.
+_WIDTHS = 60.0
+# Thickness of a layer over the width of the pressure below which its matrix takes more than 10 s.
+_THINNEST = 0.02
+# Elements are in proportion to the fourth root of the error; 48 of a smooth film have 3e-4 of
+# `Accuracy.film_rtol` = 1e-3.
+_ELEMENTS, _ERROR = 48, 1e-3
+_FEWEST, _MOST = 24, 192  # that still show the pressure; that still take a minute
+# Numbers above which an effect that is off would change the force by about 1 % (physics of each:
+# first correction of a rigid sphere; tension in half of the strength; film that no rest drains).
+_TEARS_FROM, _FLOATS_BELOW = 0.5, 10.0
+_ATMOSPHERE = 101_325.0  # [Pa], tension at which a liquid without a strength of its own tears
+_CONTINUUM = 2e-9  # [m], gap that no smooth film reaches without asperities that carry
+
+
+@frozen(eq=False)
+class DeformingPlan(ScenePlan):
+    """A checked scene of deforming bodies with its film on rings.
+
+    ``print(plan)`` states the numbers that decide, and effects that are off and should be on.
+
+    Attributes
+    ----------
+    film : SmoothGap
+        The film at the start.
+    modulus : float
+        Contact modulus E* of the topmost materials [Pa].
+    numbers : DecidingNumbers
+        At the start.
+    laplace_pressure : float
+        Suction of the meniscus at the start [Pa]; 0 of a flooded film.
+    """
+
+    known_effects: ClassVar[Registry[Any]] = SEPARATION_EFFECTS
+    columns: ClassVar[Mapping[str, Column]] = COLUMNS
+
+    scene: SeparationScene
+    accuracy: Accuracy
+    film: SmoothGap = field(repr=False)
+    modulus: float
+    numbers: DecidingNumbers
+    laplace_pressure: float
+
+    @property
+    def elements(self) -> int:
+        """Rings of the finest mesh; 0: those of `lubrication.elastohydrodynamic.motion`."""
+        if self.accuracy.film_rtol == _ERROR:
+            return 0
+        wanted = _ELEMENTS * math.pow(_ERROR / self.accuracy.film_rtol, 0.25)
+        return 4 * round(min(max(wanted, _FEWEST), _MOST) / 4.0)
+
+    @property
+    def title(self) -> str:
+        """See `ScenePlan.title`."""
+        return f"{self.scene.name or 'separation'}: {self.scene.loading.summary}"
+
+    @property
+    def engine(self) -> str:
+        """Name of the solver."""
+        return "axisymmetric film on deforming bodies"
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """See `ScenePlan.notes`."""
+        return tuple(_notes(self))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the scene, of which the same plan is made again."""
+        return plan_deforming, (self.scene, self.accuracy)
+
+
+def plan_deforming(scene: SeparationScene, accuracy: Accuracy | None = None) -> DeformingPlan:
+    """Check a scene with `ElasticBodies` and prepare its film.
+
+    Raises
+    ------
+    PlanError
+        If the film of deforming bodies would leave something of the scene out.
+    InfeasibleError
+        If the meniscus has drawn the bodies together before they start.
+    """
+    check_listed(scene.effects, SeparationEffect, "separation", SEPARATION_EFFECTS)
+    meniscus = scene.interface.meniscus
+    if meniscus is None:
+        raise PlanError("a SeparationScene needs interface.meniscus: the liquid and its amount")
+    liquid = meniscus.liquid.at(scene.temperature)
+    check_deforming(scene, liquid)
+    modulus = _modulus(scene)
+    film, suction = _film(scene, liquid, modulus)
+    _check_layers(scene, film)
+    _check_rest(scene, film, modulus)
+    found = deciding_numbers(
+        film.radius,
+        film.width,
+        film.gap,
+        film.viscosity,
+        characteristic_speed(scene, film),
+        modulus,
+    )
+    if film.wetting is not None and suction > 0.0:
+        height = film.wetting / suction
+        found = found._replace(meniscus=film.wetting * film.rim / (modulus * height**2))
+    return DeformingPlan(scene, accuracy or Accuracy.standard, film, modulus, found, suction)
+
+
+def characteristic_speed(scene: SeparationScene, film: SmoothGap) -> float:
+    """Speed of the pull [m/s]: imposed, or that of rigid bodies at the start under the force."""
+    loading = scene.loading
+    if isinstance(loading, ImposedSpeed):
+        return loading.speed
+    if isinstance(loading, PressAndPull) and loading.speed is not None:
+        return loading.speed
+    force = loading.force if isinstance(loading, ImposedForce | PressAndPull) else None
+    width = film.width
+    # Of a flat 3 pi eta R^4/(2 h^3), of a sphere 6 pi eta R^2/h = 6 pi eta w^4/h^3.
+    part = 1.5 if math.isinf(film.radius) else 6.0
+    damping = part * math.pi * film.viscosity * width**4 / film.gap**3
+    return float(force or 0.0) / damping
+
+
+def _modulus(scene: SeparationScene) -> float:
+    tops = [stack.materials[0].plane_strain_modulus for stack in scene.interface.stacks]
+    return 1.0 / sum(1.0 / top for top in tops)
+
+
+def _compliance(scene: SeparationScene) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    solids = [
+        Layers(stack.young_moduli, stack.poisson_ratios, stack.thicknesses, stack.base)
+        for stack in scene.interface.stacks
+    ]
+    return lambda nodes: rings.matrix(nodes, *solids)
+
+
+def _film(scene: SeparationScene, liquid: LiquidState, modulus: float) -> tuple[SmoothGap, float]:
+    """The film at the start, and its suction [Pa]."""
+    radius, gap = scene.interface.sphere_radius, scene.loading.initial_gap
+    limit, contact = scene.effect(TensionLimit), scene.effect(SolidContact)
+    bridge, wetting = _bridge(scene, liquid, modulus)
+    if bridge is not None:
+        rim = bridge.rim_radius
+    elif math.isfinite(scene.interface.rim_radius):
+        rim = scene.interface.rim_radius
+    else:
+        rim = min(_WIDTHS * math.sqrt(radius * scene.loading.final_gap), radius)
+    film = SmoothGap(
+        radius=radius,
+        rim=rim,
+        gap=gap,
+        viscosity=liquid.viscosity,
+        compliance=_compliance(scene),
+        cavity=math.inf if limit is None else limit.cavity_drop,
+        strength=0.0 if limit is None else limit.tension,
+        cutoff=0.0 if contact is None else contact.cutoff,
+        wetting=None if bridge is None else wetting,
+    )
+    return film, 0.0 if bridge is None else bridge.laplace_pressure
+
+
+def _bridge(
+    scene: SeparationScene, liquid: LiquidState, modulus: float
+) -> tuple[elastic_bridge.ElasticBridge | None, float]:
+    """Meniscus at rest at the start, and the surface tension times its cosines."""
+    meniscus, gap = scene.meniscus, scene.loading.initial_gap
+    pressure = meniscus.pressure_of(liquid)
+    if pressure is None and meniscus.volume is None:
+        return None, 0.0
+    angles = meniscus.contact_angle_lower, meniscus.contact_angle_upper
+    wetting = liquid.surface_tension * sum(map(math.cos, angles))
+    pair = scene.interface.sphere_radius, modulus, wetting
+    if meniscus.volume is not None:
+        found = elastic_bridge.bridge_of_volume(gap, meniscus.volume, *pair)
+        end = elastic_bridge.snap_in_of_volume(meniscus.volume, *pair).bridge
+        if found is None:
+            raise InfeasibleError(
+                f"at loading.initial_gap = {gap:g} m the meniscus has drawn the bodies together: "
+                f"they snap in at {quantity_text(end.rigid_gap, 'm')}, with a force of "
+                f"{quantity_text(end.force, 'N')}; start from a larger gap, or give less liquid or "
+                "stiffer bodies"
+            )
+    else:
+        suction = -float(pressure or 0.0)
+        found = elastic_bridge.bridge_at_pressure(gap, suction, *pair)
+        end = elastic_bridge.snap_in_at_pressure(suction, *pair)
+        if found is None:
+            raise InfeasibleError(
+                f"no meniscus spans loading.initial_gap = {gap:g} m: at this pressure of the "
+                f"liquid one reaches {quantity_text(end.rigid_gap, 'm')}; start from a smaller gap"
+            )
+    if found.centre_gap <= 0.0:
+        raise InfeasibleError(
+            f"the meniscus draws the bodies into contact at loading.initial_gap = {gap:g} m: "
+            f"the axis would overlap by {quantity_text(-found.centre_gap, 'm')}; start from a "
+            "larger gap"
+        )
+    if found.rim_radius > scene.interface.rim_radius:
+        raise PlanError(
+            f"the meniscus of a radius of {found.rim_radius:g} m reaches beyond the face of "
+            f"{scene.interface.rim_radius:g} m; give less liquid or a larger face"
+        )
+    return found, wetting
+
+
+def _check_layers(scene: SeparationScene, film: SmoothGap) -> None:
+    for name in ("lower", "upper"):
+        stack = getattr(scene.interface, name).stack
+        thin = min(stack.thicknesses, default=math.inf) if stack is not None else math.inf
+        if thin < _THINNEST * film.width:
+            raise PlanError(
+                f"interface.{name}.solid has a layer of {thin:g} m, less than "
+                f"{_THINNEST:g} of the width of the pressure, {film.width:g} m: rings do not "
+                "resolve it; leave it out, or give a thicker one"
+            )
+
+
+def _check_rest(scene: SeparationScene, film: SmoothGap, modulus: float) -> None:
+    """Refuse a rest after which smooth bodies would touch, without asperities that carry them."""
+    loading = scene.loading
+    if not isinstance(loading, PressAndPull) or film.cutoff or math.isinf(film.radius):
+        return
+    args = loading.press, loading.rest, film.radius, modulus, film.viscosity
+    if rest_number(*args, _CONTINUUM) > 1.0:
+        raise PlanError(
+            f"loading.rest = {loading.rest:g} s drains the film to less than 2 nm, and nothing "
+            "carries the bodies there: list SolidContact(cutoff=...), the gap at which their "
+            "asperities touch [m]"
+        )
+
+
+def _notes(plan: DeformingPlan) -> Iterator[str]:
+    film, numbers, scene = plan.film, plan.numbers, plan.scene
+    yield f"engine: {plan.engine}; E* = {quantity_text(plan.modulus, 'Pa')}"
+    regime = next(
+        text
+        for least, text in (
+            (1.0, "the gap follows the bodies, not the pull"),
+            (0.1, "film and bodies move together"),
+            (1e-3, "the bodies lower the force by some per cent"),
+            (0.0, "the bodies are as good as rigid"),
+        )
+        if numbers.beta >= least
+    )
+    yield f"displacement by the film over the gap, beta = {numbers.beta:.3g}: {regime}"
+    if math.isfinite(numbers.gap_over_crossover):
+        yield f"gap over the elastohydrodynamic cut-off, D/D_c = {numbers.gap_over_crossover:.3g}"
+    if numbers.meniscus:
+        yield (
+            f"displacement by the meniscus over its height, gc a/(E* h^2) = {numbers.meniscus:.3g} "
+            "(it snaps in at about 0.4)"
+        )
+    if scene.effect(TensionLimit) is not None:
+        share = 3.0 * film.strength / numbers.tension
+        yield f"strength of the liquid over eta v w^2/h^3 = {share:.3g} (rigid: tears below 3)"
+    yield from _on_rest(plan)
+    yield from _should_be_on(plan)
+
+
+def _on_rest(plan: DeformingPlan) -> Iterator[str]:
+    loading, film = plan.scene.loading, plan.film
+    if not isinstance(loading, PressAndPull) or math.isinf(film.radius) or not film.cutoff:
+        return
+    args = loading.press, loading.rest, film.radius, plan.modulus, film.viscosity
+    rested = rest_number(*args, film.cutoff)
+    state = "the contact is drained" if rested > _FLOATS_BELOW else "the bodies still float in part"
+    yield f"rest over the time of drainage to the cut-off = {rested:.3g}: {state}"
+
+
+def _should_be_on(plan: DeformingPlan) -> Iterator[str]:
+    """Effects that are off, and whose numbers ask for them."""
+    film, scene, numbers = plan.film, plan.scene, plan.numbers
+    softened = numbers.tension / (1.0 + numbers.beta)
+    tears = softened > _TEARS_FROM * _ATMOSPHERE and film.wetting is None
+    if tears and scene.effect(TensionLimit) is None:
+        yield (
+            f"tension-limit is off, and the film would bear some {quantity_text(softened, 'Pa')} "
+            "of tension: list TensionLimit()"
+        )
+    loading = scene.loading
+    if scene.effect(SolidContact) is not None or math.isinf(film.radius):
+        return
+    if isinstance(loading, PressAndPull):
+        sunk = hertz_approach(loading.press, film.radius, plan.modulus)
+        yield (
+            f"solid-contact is off: the load presses the bodies together by "
+            f"{quantity_text(sunk, 'm')} with liquid between them all the while"
+        )
