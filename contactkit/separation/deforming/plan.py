@@ -337,7 +337,7 @@ def _should_be_on(plan: DeformingPlan) -> Iterator[str]:
     film, scene, numbers = plan.film, plan.scene, plan.numbers
     softened = numbers.tension / (1.0 + numbers.beta)
     cavitates = softened > _CAVITATES_FROM * _ATMOSPHERE and film.wetting is None
-    if tears and scene.effect(TensionLimit) is None:
+    if cavitates and scene.effect(TensionLimit) is None:
         yield (
             f"tension-limit is off, and the film would bear some {quantity_text(softened, 'Pa')} "
             "of tension: list TensionLimit()"
