@@ -16,7 +16,7 @@ from ...separation.effects.base import FilmEnd, SeparationForce
 from ...separation.effects.film_shape import FilmShape
 from ...separation.effects.force_law import ForceLaw, measured_rate
 from ...separation.effects.prepared import PreparedScene, with_fraction
-from ...separation.effects.viscous import TensionLimit, ViscousForce, viscous_film
+from ...separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce, viscous_film
 from ...separation.plan import Plan, plan
 from .records import Film, FilmTables, Grid, Law, Rate, Scale, Table
 from .tables import tabulate
@@ -108,6 +108,7 @@ def prepared_film(scene: SeparationScene, accuracy: Accuracy = FINE) -> Prepared
     returns = scene.meniscus.volume is not None and 0.0 < fraction < 1.0
     tension = scene.effect(TensionLimit)
     common = _Common(made, free_liquid(made.prepared), max(1e-13, 1e-3 * loading.initial_gap))
+    _check_limits(common)
     tables = FilmTables(
         is_sphere=not interface.is_flat,
         sphere_radius=interface.sphere_radius,
@@ -165,6 +166,19 @@ def _film(common: _Common, fraction: float) -> Film:
     )
 
 
+def _check_limits(common: _Common) -> None:
+    """Refuse limits of a film whose viscosity is no parameter: the kernel would have none."""
+    if common.free.viscosity:
+        return
+    for effect in common.plan.scene.effects:
+        if isinstance(effect, TensionLimit | ShearLimit):
+            raise PlanError(
+                f"{type(effect).__name__} has no native form beside a force that is not "
+                "proportional to the viscosity it reads; leave that out, or run the scene by "
+                "ck.simulate"
+            )
+
+
 def can_cavitate(scene: SeparationScene) -> bool:
     """Whether the film of a scene may have a cavity that is remembered.
 
@@ -189,12 +203,6 @@ def _grid(common: _Common) -> Grid | None:
 
     if not isinstance(cavity, FaceCavity):
         return None
-    if not common.free.viscosity:
-        raise PlanError(
-            "TensionLimit has no native form on a face that is no disc beside a force that is "
-            "not proportional to the viscosity it reads; leave that out, or run the scene by "
-            "ck.simulate"
-        )
     return grid_record(cavity, (common.lowest, _FARTHER * common.final_gap))
 
 

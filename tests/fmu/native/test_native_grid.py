@@ -230,8 +230,12 @@ class Stirred(SeparationForce):
         return ForceLaw(lambda gap, speed: prepared.liquid.viscosity**2 * speed)
 
 
-def test_a_viscosity_that_the_tables_fix_goes_with_no_cavity_on_a_grid():
-    effects = (ck.ViscousForce(), ck.TensionLimit(strength=DROP), Stirred())
-    given = scene(lower=ck.Flat(), upper=RING, effects=effects, stiffness=0.0)
-    with pytest.raises(ck.PlanError, match=r"not proportional to the viscosity it reads"):
+@pytest.mark.parametrize("upper", [RING, ck.Flat(radius=3e-3)], ids=["ring", "disc"])
+@pytest.mark.parametrize("limit", [ck.TensionLimit(strength=DROP), ck.ShearLimit(strength=1e5)])
+def test_a_viscosity_that_the_tables_fix_goes_with_no_limit(upper, limit):
+    if upper is RING and isinstance(limit, ck.ShearLimit):
+        pytest.skip("knows discs only")
+    effects = (ck.ViscousForce(), limit, Stirred())
+    given = scene(lower=ck.Flat(), upper=upper, effects=effects, stiffness=0.0)
+    with pytest.raises(ck.PlanError, match=r"Limit has no native form .* the viscosity it reads"):
         prepared_film(moving(given, None), COARSE)
