@@ -168,6 +168,7 @@ class _Run:
         self.span = times[-1] - times[0]
         self.length = control.first * self.span
         self.factors: Preconditioner | None = None
+        self.before: MapState | None = None  # state a step ago, if nothing has jumped since
         self.counts = Counts()
 
     @property
@@ -243,21 +244,27 @@ class _Run:
 
     def _stages(self, length: float) -> list[MapStepped]:
         state, first = self.state, self.state.fields
-        guess = (first, state.sets)
+        part = length if self.control.order == 1 else _GAMMA * length
+        ahead = first
+        if self.before is not None:
+            elapsed = state.time - self.before.time
+            if part <= elapsed:
+                ahead = _extrapolated(self.before.fields, first, 1.0 + part / elapsed)
+        guess = (ahead, state.sets)
         if self.control.order == 1:
             return [self._stage(first, guess, state.time + length, length)]
-        part = _GAMMA * length
         one = self._stage(first, guess, state.time + part, part)
-        ahead = (1.0 - _GAMMA) / _GAMMA
+        carried = (1.0 - _GAMMA) / _GAMMA
         shifted = MapFields(
             one.fields.pressure,
-            first.content + ahead * (one.fields.content - first.content),
+            first.content + carried * (one.fields.content - first.content),
             one.fields.total,
-            first.rigid_gap + ahead * (one.fields.rigid_gap - first.rigid_gap),
-            first.speed + ahead * (one.fields.speed - first.speed),
+            first.rigid_gap + carried * (one.fields.rigid_gap - first.rigid_gap),
+            first.speed + carried * (one.fields.speed - first.speed),
         )
         end = state.time + length
-        return [one, self._stage(shifted, (one.fields, one.sets), end, part)]
+        guess = (_extrapolated(first, one.fields, 1.0 / _GAMMA), one.sets)
+        return [one, self._stage(shifted, guess, end, part)]
 
     def _stage(
         self, start: MapFields, guess: tuple[MapFields, Sets], time: float, length: float
@@ -288,7 +295,7 @@ class _Run:
         self.ruptures.append(self.state.time)
         self.state = self.state._replace(ruptured=True)
         self.kept.append(self.state)
-        self.length = _AFTER_RUPTURE * length
+        self.before, self.length = None, _AFTER_RUPTURE * length
         return True
 
     def _accept(self, stages: list[MapStepped], length: float) -> None:
@@ -298,6 +305,7 @@ class _Run:
         def over_step(rate: Callable[[MapStepped], float]) -> float:
             return length * sum(w * rate(one) for w, one in zip(weights, stages, strict=True))
 
+        self.before = before
         self.state = MapState(
             before.time + length,
             end.fields,
@@ -308,3 +316,8 @@ class _Run:
             before.inflow + over_step(lambda s: wet.inflow(s.fields, s.sets)),
         )
         self.counts = self.counts._replace(steps=self.counts.steps + 1)
+
+
+def _extrapolated(before: MapFields, after: MapFields, at: float) -> MapFields:
+    """Fields on the line through two states, at a time over that between them; for guesses."""
+    return MapFields(*(a + at * (b - a) for a, b in zip(before, after, strict=True)))

@@ -38,7 +38,7 @@ _MOST = 30  # Newton iterations; 3 to 4 are usual, 7 the most where many cells c
 _LINEAR = 1e-3
 _MOST_LINEAR = 120
 # Iterations beyond which new factors pay: with new ones 3 to 18 are usual.
-_STALE = 20
+_STALE = 12
 _REUSED = 1.5  # ratio of the lengths of two steps up to which factors are kept
 # A gap may shrink to this part of itself in an iteration, where nothing can touch.
 _LEAST_GAP = 0.1
