@@ -71,7 +71,7 @@ def isolated_map(
 
     >>> one = isolated_map((1, 1), (1.0, 1.0), Layers([1.0], [0.0]))
     >>> one.displacement(np.ones((1, 1))).round(5).tolist()
-    [[1.12220]]
+    [[1.1222]]
     >>> one.at_wavenumber(np.array([2.0])).tolist()
     [1.0]
     """

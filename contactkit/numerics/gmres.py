@@ -55,9 +55,9 @@ def gmres(
     Examples
     --------
     >>> A = np.array([[2.0, 1.0], [0.0, 3.0]])
-    >>> found = gmres(lambda x: A @ x, np.array([3.0, 3.0]), lambda r: r / 2.0, 1e-12, 9)
+    >>> found = gmres(lambda x: A @ x, np.array([4.0, 3.0]), lambda r: r / 2.0, 1e-12, 9)
     >>> found.x.round(12).tolist(), found.n_iterations
-    ([1.0, 1.0], 2)
+    ([1.5, 1.0], 2)
     """
     norm = float(np.linalg.norm(right))
     if norm == 0.0:

@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
+from wet_maps import CASES, pull_at, pulled, wet_map
 
 from contactkit.lubrication.elastohydrodynamic.drive import Imposed
 from contactkit.lubrication.elastohydrodynamic.maps.follow import MapControl, begun, follow
 from contactkit.lubrication.elastohydrodynamic.maps.wet_map import at_rest
-
-from wet_maps import CASES, pull_at, pulled, wet_map
 
 
 def extrapolated(coarse, fine):

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from attrs import evolve
+from wet_maps import CASES, pull_at, pulled, wet_map
 
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.elasticity import influence, rings
@@ -17,8 +18,6 @@ from contactkit.lubrication.elastohydrodynamic.motion import Phase, SmoothGap, m
 from contactkit.lubrication.elastohydrodynamic.step import StepFailedError
 from contactkit.lubrication.reynolds import solve as reynolds
 from contactkit.lubrication.reynolds.film import GridFilm
-
-from wet_maps import CASES, pull_at, pulled, wet_map
 
 ROUGH, CONTACT = CASES["rough_sphere_pull"], CASES["rough_sphere_contact"]
 R, GAP, ETA, SPEED = 5e-3, 1e-6, 0.1, 1e-5

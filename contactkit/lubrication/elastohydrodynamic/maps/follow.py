@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from attrs import evolve, frozen
@@ -320,4 +320,8 @@ class _Run:
 
 def _extrapolated(before: MapFields, after: MapFields, at: float) -> MapFields:
     """Fields on the line through two states, at a time over that between them; for guesses."""
-    return MapFields(*(a + at * (b - a) for a, b in zip(before, after, strict=True)))
+
+    def there(a: Any, b: Any) -> Any:
+        return a + at * (b - a)
+
+    return MapFields(*(there(a, b) for a, b in zip(before, after, strict=True)))

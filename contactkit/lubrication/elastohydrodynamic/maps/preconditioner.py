@@ -6,7 +6,7 @@ wavenumber
 .. math:: \frac{q^2}{C(q)} = \frac{12 \eta}{h^3 \tau}
 
 of a cell and a step :math:`\tau` the film is as stiff as the bodies; its compliance C(q) stands for
-theirs, so that what is left of the whole matrix :math:`L + (A/\tau)\,C` is sparse. On half-spaces
+theirs, so that what is left of the matrix :math:`L + (A/\tau)\,C` is sparse. On half-spaces
 :math:`q = (24 \eta/(E^* h^3 \tau))^{1/3}`. One q for all cells needs up to four times the
 iterations, the film alone ten times (rough sphere, beta from 1e-3 to 1e3).
 """
@@ -14,6 +14,7 @@ iterations, the film alone ten times (rough sphere, beta from 1e-3 to 1e3).
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from attrs import field, frozen
@@ -78,7 +79,7 @@ class Preconditioner:
     gap if a force is imposed; rows are in [m].
     """
 
-    solve: Callable[[Array], Array]
+    solve: Callable[[Any], Any]
     full: NDArray[np.bool_]
     sets: Sets
     length: float
@@ -89,6 +90,7 @@ class Preconditioner:
     motion: float
 
     def __call__(self, rows: Array) -> Array:
+        """Changes of the unknowns that nearly cancel some rows."""
         n, k = len(self.full), int(self.sets.contact.sum())
         found = np.empty_like(rows)
         found[:n] = self._film(rows[:n])
@@ -128,10 +130,7 @@ def preconditioner(
     matrix = (flow.matrix + diags_array(springs)).tocsr()
     if len(rows) < len(full):
         matrix = matrix[rows][:, rows]
-    if len(rows):
-        solve = factorised(matrix, _direct(len(rows)), is_symmetric=True)
-    else:
-        solve = np.copy
+    solve = factorised(matrix, _direct(len(rows)), is_symmetric=True) if len(rows) else np.copy
     rigid, pressed = np.zeros(len(full)), 0.0
     motion = 0.0
     if isinstance(wet.drive, Driven):
@@ -140,9 +139,7 @@ def preconditioner(
             pressed = 1.0 / local.of_face
         force = float(rigid[alone].sum()) + int(sets.contact.sum()) * pressed
         motion = wet.cell_area / (inertia(wet.drive, length) + wet.cell_area * force)
-    return Preconditioner(
-        solve, full, sets, length, weight, local.of_cell, rigid, pressed, motion
-    )
+    return Preconditioner(solve, full, sets, length, weight, local.of_cell, rigid, pressed, motion)
 
 
 def inertia(drive: Driven, length: float) -> float:

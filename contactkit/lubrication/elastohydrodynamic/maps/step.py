@@ -12,7 +12,7 @@ tolerance: so liquid is conserved to round-off, and what a step leaves is mended
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -245,7 +245,7 @@ class _Newton:
 class _Product:
     """Product of the whole slope matrix with changes of the unknowns."""
 
-    def __init__(self, newton: _Newton, slopes: object, inverse: Preconditioner) -> None:
+    def __init__(self, newton: _Newton, slopes: Any, inverse: Preconditioner) -> None:
         self.newton, self.slopes, self.inverse = newton, slopes, inverse
 
     def __call__(self, x: Array) -> Array:
@@ -254,7 +254,7 @@ class _Product:
         opened = moved + wet.displacement(total)
         sets = newton.sets
         free = np.where(newton.follows, opened, 0.0)
-        out = newton.flow.matrix @ pressure + self.slopes @ free  # type: ignore[operator]
+        out = newton.flow.matrix @ pressure + self.slopes @ free
         film = np.where(sets.contact, 0.0, opened) + newton.storing * out
         parts = [np.where(sets.void, x[: len(film)], film), opened[sets.contact]]
         if newton.moves:

@@ -177,7 +177,9 @@ class WetMap:
         matrix = assembled(mesh, [inner, inner, -inner, -inner, outer])
         at_rim = mesh.number[mesh.rim.cell]
         inward = np.bincount(at_rim, weights=outer * self._rim_pressure(), minlength=mesh.size)
-        return Flow(matrix, inward.astype(float), inner, outer)
+        return Flow(
+            matrix, inward.astype(float), np.asarray(inner, float), np.asarray(outer, float)
+        )
 
     def flow_slopes(self, flow: Flow, gap: Array, pressure: Array) -> Any:
         """Derivative of the flow out of each cell by the gaps, sparse [m2/s]."""
@@ -210,7 +212,7 @@ class WetMap:
         return float(flow.outer @ (self._rim_pressure() - at_rim))
 
     def _rim_pressure(self) -> Array:
-        return self.face.pressure.ravel()[self.mesh.rim.beyond]
+        return np.asarray(self.face.pressure.ravel()[self.mesh.rim.beyond], float)
 
 
 def at_rest(wet: WetMap, rigid_gap: float) -> MapFields:
