@@ -83,7 +83,7 @@ SMOOTH = {
     "pull_mass_beta0.1": 8e-3,
     "pull_spring_beta1": 2e-3,
     "layer_pull_beta1_t2_nu0.3": 2e-3,
-    "tear_pull_beta0.1": 5e-3,
+    "rupture_pull_beta0.1": 5e-3,
     "two_pressures_beta1": 2e-2,
 }
 
@@ -101,6 +101,6 @@ def test_smooth_cases(name):
         forces.append(pull_at(wet, track, times))
         ruptures += track.rupture_times
     assert off(extrapolated(*forces), case["values"]["pull_force"]) < SMOOTH[name]
-    if "tear_time" in case["values"]:
-        expected = case["values"]["tear_time"]
+    if "rupture_time" in case["values"]:
+        expected = case["values"]["rupture_time"]
         assert extrapolated(*ruptures) == pytest.approx(expected, rel=5e-3)

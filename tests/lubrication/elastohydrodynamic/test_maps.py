@@ -60,7 +60,6 @@ def test_rigid_bodies_are_those_of_reynolds(drop):
         scale = np.abs(state.pressure).max()
         assert fields.pressure == pytest.approx(wet.of_map(state.pressure), abs=1e-9 * scale)
         liquid = wet.of_map(state.liquid_fraction * state.gap)
-        # At the rim of a cavity the two say otherwise how much of a cell stores liquid.
         assert fields.content == pytest.approx(liquid, rel=1e-9)
     assert bool(sets.void.any()) is (drop < math.inf)
 
@@ -147,6 +146,7 @@ def test_energy_of_a_pull_is_dissipated_or_stored():
     assert end.dissipated > 0.2 * end.work
 
 
+@pytest.mark.slow
 def test_order_of_the_steps():
     """Errors fall with the square of the step, of implicit Euler in proportion to it."""
     wet = wet_map(ROUGH, 12)

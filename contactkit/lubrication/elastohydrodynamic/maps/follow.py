@@ -23,6 +23,7 @@ import numpy as np
 from attrs import evolve, frozen
 from numpy.typing import NDArray
 
+from ....numerics.blas import one_thread
 from ....numerics.roots import bracketed_root
 from ..drive import Drive
 from ..step import StepFailedError
@@ -109,6 +110,7 @@ def begun(fields: MapFields, time: float = 0.0) -> MapState:
     return MapState(time, fields, Sets(none, none))
 
 
+@one_thread()
 def follow(
     wet: WetMap,
     start: MapState,
