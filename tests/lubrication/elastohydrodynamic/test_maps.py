@@ -9,6 +9,7 @@ from wet_maps import CASES, pull_at, pulled, wet_map
 
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.elasticity import influence, rings
+from contactkit.errors import DescriptionError
 from contactkit.lubrication.elastohydrodynamic.drive import Driven, Imposed
 from contactkit.lubrication.elastohydrodynamic.maps.follow import MapControl, begun, follow
 from contactkit.lubrication.elastohydrodynamic.maps.preconditioner import LocalCompliance
@@ -176,6 +177,17 @@ def test_gap_that_closes_is_refused():
     wet = evolve(wet_map(ROUGH, 12, drive=Imposed(lambda _: -GAP)), deformation=Rigid())
     with pytest.raises(StepFailedError, match="no step can be solved"):
         pulled(wet, [1e-3])
+
+
+def test_bad_input():
+    wet = wet_map(ROUGH, 12)
+    with pytest.raises(DescriptionError, match=r"gap.*row \d+, column \d+"):
+        at_rest(wet, -GAP)
+    with pytest.raises(DescriptionError, match="1 pockets"):
+        evolve(wet, face=evolve(wet.face, pockets=((0.0, 0.0),)))
+    rigid = evolve(wet_map(CONTACT, 12, drive=Imposed(lambda t: GAP - t)), deformation=Rigid())
+    with pytest.raises(StepFailedError, match="no step can be solved"):
+        pulled(rigid, [2.0 * GAP])
 
 
 @pytest.mark.slow

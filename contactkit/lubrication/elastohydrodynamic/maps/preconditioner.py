@@ -20,6 +20,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
+from ....errors import ConvergenceError
 from ...reynolds.linear_systems import choose_solver, factorised
 from ..drive import Driven
 from ..wet_gap import Sets
@@ -119,10 +120,12 @@ def preconditioner(
     Raises
     ------
     ConvergenceError
-        If some liquid has no way to a reservoir, and the bodies are rigid.
+        If bodies that are rigid touch, or enclose liquid that has no way to a reservoir.
     """
     from scipy.sparse import diags_array
 
+    if sets.contact.any() and not local.of_face:
+        raise ConvergenceError("bodies that touch must deform: those here are rigid")
     full, alone = ~sets.void, ~sets.contact
     weight = wet.storage / length
     springs = np.where(alone, weight * local.at(gap, length), 0.0)

@@ -23,6 +23,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
+from ....errors import DescriptionError
 from ...reynolds.discretisation import assembled, conductances
 from ...reynolds.face import Face
 from ...reynolds.mesh import Mesh, make_mesh
@@ -90,8 +91,8 @@ class WetMap:
     Parameters
     ----------
     face : Face
-        Cells of film and what is around them; a reservoir has its pressure above ambient. Pockets
-        are left out of account.
+        Cells of film and what is around them; a reservoir has its pressure above ambient. Without
+        pockets.
     shape : ndarray, shape (ny, nx)
         Gap of the undeformed bodies less their rigid gap [m].
     viscosity : float
@@ -104,6 +105,11 @@ class WetMap:
         Pressure of a cavity above ambient [Pa]; -inf: none opens.
     cutoff : float
         Gap at which asperities touch [m]; 0: none do.
+
+    Raises
+    ------
+    DescriptionError
+        If the face has pockets.
     """
 
     face: Face
@@ -118,6 +124,11 @@ class WetMap:
 
     @mesh.default
     def _mesh(self) -> Mesh:
+        if self.face.pockets:
+            cure = "make them holes at a pressure, or take GridFilm with rigid bodies"
+            raise DescriptionError(
+                "WetMap.face", f"{len(self.face.pockets)} pockets", "have none", hint=cure
+            )
         return make_mesh(self.face)
 
     @storage.default
@@ -216,6 +227,18 @@ class WetMap:
 
 
 def at_rest(wet: WetMap, rigid_gap: float) -> MapFields:
-    """Fields of bodies at rest with a full film of ambient pressure."""
+    """Fields of bodies at rest with a full film of ambient pressure.
+
+    Raises
+    ------
+    DescriptionError
+        If the gap is closed somewhere.
+    """
+    gap = rigid_gap + wet.of_map(wet.shape)
+    if not gap.min() > 0.0:
+        row, column = np.divmod(wet.mesh.loaded[gap.argmin()], wet.face.shape[1])
+        place = f"{float(gap.min())!r} in row {row}, column {column}"
+        cure = "start from a larger rigid gap, and press the bodies together from there"
+        raise DescriptionError("gap", place, "be positive", unit="m", hint=cure)
     none = np.zeros(wet.mesh.size)
-    return MapFields(none, rigid_gap + wet.of_map(wet.shape), none, rigid_gap, 0.0)
+    return MapFields(none, gap, none, rigid_gap, 0.0)
