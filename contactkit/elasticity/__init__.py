@@ -9,6 +9,7 @@ depths           Planes at depth: layer, and side of an interface.
 love             Uniform pressure on a rectangle: Love's influence coefficients.
 point_load       Surface displacement under a point load, tabulated over the radius.
 influence        Influence coefficients of non-periodic contacts.
+isolated_map     Displacement of maps without periodic images, and of waves.
 one_axis         Influence coefficients of windows that repeat along one axis.
 rings            Displacement under axisymmetric pressures that are linear between rings.
 hardness_rules   Hardness of a layered solid over the depth of indentation.

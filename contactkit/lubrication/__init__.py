@@ -10,6 +10,6 @@ couette_sphere    Couette film under a sliding sphere.
 couette_reynolds  Sphere sliding in a round film: drag from Reynolds' equation.
 dimensionless     Dimensionless numbers for the range of validity.
 elastohydrodynamic
-                  Films of axisymmetric bodies that deform: cavities, contact, moving rims.
+                  Films of bodies that deform, on rings and on a grid: cavities, contact.
 reynolds          Reynolds' equation in 2-D: any face, any gap, cavities with memory.
 """

@@ -1,4 +1,4 @@
-"""Elastohydrodynamic films of axisymmetric bodies: deformation, cavities, contact, moving rims.
+"""Elastohydrodynamic films: deformation, cavities, contact; moving rims of axisymmetric bodies.
 
 mesh      Rings: nodes, areas, conductances.
 drive     An imposed gap, or forces on a mass with a spring.
@@ -6,5 +6,6 @@ wet_gap   Film, contact and motion as equations of one unknown, in units of visc
 step      One implicit step: Radau IIA, semismooth Newton, error estimate.
 follow    Adaptive steps; the rupture of a film stronger than a cavity.
 motion    Motion of smooth bodies in SI units, extrapolated from three meshes.
+maps      Films on a grid: rough and measured surfaces.
 response  Storage and loss modulus over the frequency.
 """

@@ -11,6 +11,7 @@ gap; transport is central where the film is full and upwind in the voids.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -25,7 +26,15 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["Balance", "checked_gap", "discretise", "mesh_of", "per_unknown"]
+__all__ = [
+    "Balance",
+    "assembled",
+    "checked_gap",
+    "conductances",
+    "discretise",
+    "mesh_of",
+    "per_unknown",
+]
 
 Velocity = tuple[float, float]
 
@@ -131,14 +140,12 @@ def discretise(
     """
     mesh = mesh_of(face, gap)
     height = gap.ravel()
-    conduct = height**3 / (12.0 * viscosity)
-    a, b = conduct[mesh.sides.low], conduct[mesh.sides.high]
-    # Halves of two cells in series: they carry one flow, also where the gap has a step between.
-    # Up to the rim the gap is that of the cell alone.
-    inner = mesh.sides.geometry * (2.0 * a * b / (a + b))
-    outer = mesh.rim.geometry * conduct[mesh.rim.cell]
+    inner, outer = conductances(mesh, height**3 / (12.0 * viscosity))
     reference, beyond = _reservoirs(face, mesh)
-    matrix = _conductance_matrix(mesh, inner, outer)
+    to_pocket = outer[mesh.rim_number >= 0]
+    matrix = assembled(
+        mesh, [inner, inner, -inner, -inner, outer, to_pocket, -to_pocket, -to_pocket]
+    )
     to_reservoir = mesh.rim_number < 0
     inward = (outer * beyond)[to_reservoir]
     at_rim = mesh.number[mesh.rim.cell[to_reservoir]]
@@ -163,14 +170,39 @@ def _reservoirs(face: Face, mesh: Mesh) -> tuple[float, Array]:
     return reference, np.where(to_reservoir, pressure - reference, 0.0)
 
 
-def _conductance_matrix(mesh: Mesh, inner: Array, outer: Array) -> Any:
+def conductances(mesh: Mesh, conductivity: Array) -> tuple[Array, Array]:
+    """Conductances of the sides between cells, and at the rim [m3/(Pa.s)].
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh.
+    conductivity : ndarray
+        h^3/(12 eta) of every cell (flat) [m3/(Pa.s)].
+    """
+    a, b = conductivity[mesh.sides.low], conductivity[mesh.sides.high]
+    # Halves of two cells in series: they carry one flow, also where the gap has a step between.
+    # Up to the rim the gap is that of the cell alone.
+    inner = mesh.sides.geometry * (2.0 * a * b / (a + b))
+    return inner, mesh.rim.geometry * conductivity[mesh.rim.cell]
+
+
+def assembled(mesh: Mesh, values: Sequence[Array]) -> Any:
+    """Sparse matrix (CSR) of what the sides add to it.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh.
+    values : sequence of ndarray
+        Of the sides between cells on the diagonals of their low and high cells, in the row of the
+        low and of the high cell; of the rim on the diagonal; then likewise of pockets.
+    """
     from scipy.sparse import csr_array
 
-    to_pocket = outer[mesh.rim_number >= 0]
-    values = np.concatenate(
-        [inner, inner, -inner, -inner, outer, to_pocket, -to_pocket, -to_pocket]
+    entries = np.bincount(
+        mesh.pattern.slot, weights=np.concatenate(values), minlength=len(mesh.pattern.columns)
     )
-    entries = np.bincount(mesh.pattern.slot, weights=values, minlength=len(mesh.pattern.columns))
     size = (mesh.size, mesh.size)
     return csr_array((entries, mesh.pattern.columns, mesh.pattern.starts), shape=size)
 

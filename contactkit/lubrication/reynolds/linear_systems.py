@@ -8,6 +8,7 @@ matrices can be used throughout.
 from __future__ import annotations
 
 import importlib.util
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["SOLVERS", "choose_solver", "solve_sparse"]
+__all__ = ["SOLVERS", "choose_solver", "factorised", "solve_sparse"]
 
 SOLVERS = ("superlu", "cholmod", "amg")
 LARGE = 60_000
@@ -94,19 +95,46 @@ def solve_sparse(matrix: Any, right: Array, solver: str, is_symmetric: bool) -> 
     >>> solve_sparse(csc_array([[2.0, -1.0], [-1.0, 2.0]]), np.array([1.0, 1.0]), "superlu", True)
     array([1., 1.])
     """
+    if solver == "amg" and is_symmetric:
+        return _multigrid(matrix, right)
+    found = factorised(matrix, solver, is_symmetric)(right)
+    if not np.isfinite(found).all():
+        raise ConvergenceError("the film has no unique pressure: its matrix is singular")
+    return found
+
+
+def factorised(matrix: Any, solver: str, is_symmetric: bool) -> Callable[[Array], Array]:
+    """Factors of a sparse matrix, as a function that solves for a right-hand side.
+
+    Parameters
+    ----------
+    matrix, solver, is_symmetric
+        As of `solve_sparse`; "amg" has no factors, SuperLU gives them.
+
+    Raises
+    ------
+    ConvergenceError
+        If the matrix is singular.
+
+    Examples
+    --------
+    >>> from scipy.sparse import csc_array
+    >>> solve = factorised(csc_array([[2.0, -1.0], [-1.0, 2.0]]), "superlu", True)
+    >>> solve(np.array([1.0, 1.0]))
+    array([1., 1.])
+    """
     if solver == "cholmod" and is_symmetric:
         from scipy.sparse import csc_matrix
         from sksparse.cholmod import cholesky
 
-        return np.asarray(cholesky(csc_matrix(matrix))(right))
-    if solver == "amg" and is_symmetric:
-        return _multigrid(matrix, right)
+        factor = cholesky(csc_matrix(matrix))
+        return lambda right: np.asarray(factor(right))
     from scipy.sparse.linalg import splu
 
     # Columns are diagonally dominant: conductances, and what walls carry from a cell to others. No
     # pivots are needed, and the order of a symmetric pattern fills least.
     try:
-        factor = splu(
+        factors = splu(
             matrix.tocsc(),
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
@@ -116,10 +144,7 @@ def solve_sparse(matrix: Any, right: Array, solver: str, is_symmetric: bool) -> 
         )
     except RuntimeError as error:
         raise ConvergenceError(f"the film has no unique pressure: {error}") from error
-    found = np.asarray(factor.solve(right))
-    if not np.isfinite(found).all():
-        raise ConvergenceError("the film has no unique pressure: its matrix is singular")
-    return found
+    return lambda right: np.asarray(factors.solve(right))
 
 
 def _multigrid(matrix: Any, right: Array) -> Array:

@@ -1,0 +1,329 @@
+r"""Motion of a wet map in time, with steps of the length in which gaps change by a given part.
+
+Order 1 is implicit Euler. Order 2 is the SDIRK method with :math:`\gamma = 1 - 1/\sqrt 2`, two
+implicit Euler stages of which the second starts from
+:math:`y_0 + (1 - \gamma)/\gamma\,(Y_1 - y_0)`; both are L-stable. Where cavities and contacts come
+and go the second order is lost, not the accuracy.
+
+A film stronger than a cavity ruptures at the instant at which its tension reaches the strength;
+from there on the pressure of the cavity is the floor, until the last void is filled again.
+
+References
+----------
+Hairer and Wanner, Solving Ordinary Differential Equations II (1996), section IV.6.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from attrs import evolve, frozen
+from numpy.typing import NDArray
+
+from ....numerics.blas import one_thread
+from ....numerics.roots import bracketed_root
+from ..drive import Drive
+from ..step import StepFailedError
+from ..wet_gap import Sets
+from .preconditioner import LocalCompliance, Preconditioner
+from .step import MapStepped, step
+from .wet_map import MapFields, WetMap
+
+__all__ = ["Counts", "MapControl", "MapState", "MapTrack", "begun", "follow"]
+
+Array = NDArray[np.float64]
+
+_GAMMA = 1.0 - math.sqrt(0.5)
+_SHORTEST = 1e-10  # step over the whole span, below which there is none
+_GROW, _SHRINK = 2.0, 0.25  # of a step from one to the next, at most
+_TOO_MUCH = 2.0  # change over the one aimed at, with which a step is repeated
+_SAFETY = 0.9  # of the length that would just meet it
+_RUPTURE = 1e-3  # where in a step the film ruptures, of its length
+_AFTER_RUPTURE = 0.05  # step after a rupture over that before it: pressures jump
+
+
+@frozen
+class MapControl:
+    """Steps of a motion.
+
+    Parameters
+    ----------
+    change : float
+        Part of itself by which a gap may change in a step, and part of the smallest gap by which
+        the rigid gap may.
+    order : int
+        1 or 2.
+    strength : float
+        Tension at which the whole film ruptures [Pa]; below that of a cavity it is the floor.
+    first : float
+        Length of the first step over the span.
+    """
+
+    change: float = 0.1
+    order: int = 2
+    strength: float = 0.0
+    first: float = 1e-4
+
+
+class MapState(NamedTuple):
+    """State at an instant.
+
+    `work` is that of the pull [J], `dissipated` that of the film [J], `inflow` the volume that came
+    in through the rim [m3].
+    """
+
+    time: float
+    fields: MapFields
+    sets: Sets
+    ruptured: bool = False
+    work: float = 0.0
+    dissipated: float = 0.0
+    inflow: float = 0.0
+
+
+class Counts(NamedTuple):
+    """Work of a motion: steps, stages, iterations of Newton and of GMRES, factorisations."""
+
+    steps: int = 0
+    rejected: int = 0
+    stages: int = 0
+    newton: int = 0
+    linear: int = 0
+    most_linear: int = 0
+    factorisations: int = 0
+
+
+class MapTrack(NamedTuple):
+    """States at the times asked for, when a whole film ruptured, and the work."""
+
+    states: list[MapState]
+    rupture_times: list[float]
+    counts: Counts
+
+
+def begun(fields: MapFields, time: float = 0.0) -> MapState:
+    """State of fields without cavities and contacts at a time [s]."""
+    none = np.zeros(len(fields.pressure), dtype=bool)
+    return MapState(time, fields, Sets(none, none))
+
+
+@one_thread()
+def follow(
+    wet: WetMap,
+    start: MapState,
+    times: Sequence[float],
+    control: MapControl | None = None,
+    *,
+    drive: Drive | None = None,
+    every_step: bool = False,
+    until: float = math.inf,
+) -> MapTrack:
+    """Follow the motion from the first time to the last.
+
+    Parameters
+    ----------
+    wet : WetMap
+        With the floor of its cavities.
+    start : MapState
+        At the first of the times.
+    times : sequence of float
+        Ascending [s]; a step ends at each.
+    control : MapControl, optional
+        Default: `MapControl()`.
+    drive : Imposed or Driven, optional
+        In place of that of the map: the next part of a motion.
+    every_step : bool
+        Whether states are kept after each step, and not at the times alone.
+    until : float
+        Rigid gap at which the motion ends before the last time [m].
+
+    Raises
+    ------
+    StepFailedError
+        If no step, however short, can be solved.
+    """
+    if drive is not None:
+        wet = evolve(wet, drive=drive)
+    run = _Run(wet, start, times, control or MapControl())
+    run.every_step, run.until = every_step, until
+    for time in times[1:]:
+        run.go_to(time)
+        if run.is_over:
+            break
+    return MapTrack(run.kept, run.ruptures, run.counts)
+
+
+class _Run:
+    """Progress of a motion."""
+
+    def __init__(
+        self, wet: WetMap, start: MapState, times: Sequence[float], control: MapControl
+    ) -> None:
+        self.control, self.state = control, start
+        self.cavitating, self.whole = wet, evolve(wet, floor=-math.inf)
+        self.local = LocalCompliance(wet)
+        self.every_step, self.until = False, math.inf
+        self.kept, self.ruptures = [start], list[float]()
+        self.span = times[-1] - times[0]
+        self.length = control.first * self.span
+        self.factors: Preconditioner | None = None
+        self.before: MapState | None = None  # state a step ago, if nothing has jumped since
+        self.counts = Counts()
+
+    @property
+    def waits(self) -> bool:
+        """Whether the film is whole, and stronger than a cavity."""
+        return -self.control.strength < self.cavitating.floor and not self.state.ruptured
+
+    @property
+    def wet(self) -> WetMap:
+        """The map, without a floor as long as the film is whole."""
+        return self.whole if self.waits else self.cavitating
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the gap has reached its end."""
+        return self.state.fields.rigid_gap >= self.until
+
+    def go_to(self, time: float) -> None:
+        """Step until a time or the end; keep its state."""
+        near = 0.1 * _SHORTEST * self.span  # sums of steps meet it but for round-off
+        while time - self.state.time > near and not self.is_over:
+            left = time - self.state.time
+            cut = self.length >= left * (1.0 - 1e-9)
+            # Two steps rather than one and a tiny rest.
+            length = left if cut else min(self.length, max(0.5 * left, 0.1 * self.length))
+            planned = self.length if cut else 0.0
+            accepted = self._try(length)
+            if accepted:
+                self.length = max(self.length, planned)
+                if self.every_step and not (cut or self.is_over):
+                    self.kept.append(self.state)
+        if not self.is_over:
+            self.state = self.state._replace(time=time)
+        self.kept.append(self.state)
+
+    def _try(self, length: float) -> bool:
+        """Try a step; whether it was accepted. Sets the length of the next."""
+        if length < _SHORTEST * self.span:
+            raise StepFailedError(f"no step can be solved at t = {self.state.time:g} s")
+        try:
+            stages = self._stages(length)
+        except StepFailedError:
+            return self._rejected(_SHRINK * length)
+        change = self._change(stages[-1]) / self.control.change
+        if change > _TOO_MUCH:
+            return self._rejected(length * max(_SHRINK, _SAFETY / change))
+        if self.waits and self._excess(stages) > 0.0:
+            return self._rupture(length)
+        self._accept(stages, length)
+        self.length = length * min(_GROW, _SAFETY / max(change, 1e-9))
+        return True
+
+    def _rejected(self, length: float) -> bool:
+        self.counts = self.counts._replace(rejected=self.counts.rejected + 1)
+        self.length = length
+        return False
+
+    def _excess(self, stages: list[MapStepped]) -> float:
+        """Tension beyond the strength at the end of a step."""
+        return -self.control.strength - float(stages[-1].fields.pressure.min())
+
+    def _change(self, end: MapStepped) -> float:
+        """Largest change of a gap over itself."""
+        before, after = self.state.fields, end.fields
+        old, new = before.content, self.wet.gap(after)
+        cutoff = self.wet.cutoff
+        # Of cells that were in a cavity the content is no gap: there it is left out.
+        full = ~(self.state.sets.void | end.sets.void)
+        old, new = np.maximum(old[full], cutoff), np.maximum(new[full], cutoff)
+        opened = float(np.abs(np.log(new / old)).max(initial=0.0))
+        least = float(min(old.min(initial=math.inf), new.min(initial=math.inf)))
+        return max(opened, abs(after.rigid_gap - before.rigid_gap) / least)
+
+    def _stages(self, length: float) -> list[MapStepped]:
+        state, first = self.state, self.state.fields
+        part = length if self.control.order == 1 else _GAMMA * length
+        ahead = first
+        if self.before is not None:
+            elapsed = state.time - self.before.time
+            if part <= elapsed:
+                ahead = _extrapolated(self.before.fields, first, 1.0 + part / elapsed)
+        guess = (ahead, state.sets)
+        if self.control.order == 1:
+            return [self._stage(first, guess, state.time + length, length)]
+        one = self._stage(first, guess, state.time + part, part)
+        carried = (1.0 - _GAMMA) / _GAMMA
+        shifted = MapFields(
+            one.fields.pressure,
+            first.content + carried * (one.fields.content - first.content),
+            one.fields.total,
+            first.rigid_gap + carried * (one.fields.rigid_gap - first.rigid_gap),
+            first.speed + carried * (one.fields.speed - first.speed),
+        )
+        end = state.time + length
+        guess = (_extrapolated(first, one.fields, 1.0 / _GAMMA), one.sets)
+        return [one, self._stage(shifted, guess, end, part)]
+
+    def _stage(
+        self, start: MapFields, guess: tuple[MapFields, Sets], time: float, length: float
+    ) -> MapStepped:
+        done = step(self.wet, self.local, start, guess, time, length, self.factors)
+        self.factors = done.kept
+        old, work = self.counts, done.work
+        self.counts = old._replace(
+            stages=old.stages + 1,
+            newton=old.newton + work.newton,
+            linear=old.linear + sum(work.linear),
+            most_linear=max(old.most_linear, *work.linear),
+            factorisations=old.factorisations + work.factorisations,
+        )
+        return done
+
+    def _rupture(self, length: float) -> bool:
+        """Step up to the instant at which the tension reaches the strength."""
+
+        def excess(share: float) -> float:
+            if share > 0.0:
+                return self._excess(self._stages(share * length))
+            return -self.control.strength - float(self.state.fields.pressure.min())
+
+        share = bracketed_root(excess, 0.0, 1.0, _RUPTURE) if excess(0.0) < 0.0 else 0.0
+        if share > _RUPTURE:
+            self._accept(self._stages(share * length), share * length)
+        self.ruptures.append(self.state.time)
+        self.state = self.state._replace(ruptured=True)
+        self.kept.append(self.state)
+        self.before, self.length = None, _AFTER_RUPTURE * length
+        return True
+
+    def _accept(self, stages: list[MapStepped], length: float) -> None:
+        before, end, wet = self.state, stages[-1], self.wet
+        weights = [1.0] if len(stages) == 1 else [1.0 - _GAMMA, _GAMMA]
+
+        def over_step(rate: Callable[[MapStepped], float]) -> float:
+            return length * sum(w * rate(one) for w, one in zip(weights, stages, strict=True))
+
+        self.before = before
+        self.state = MapState(
+            before.time + length,
+            end.fields,
+            end.sets,
+            before.ruptured and bool(end.sets.void.any()),
+            before.work + over_step(lambda s: -wet.thrust(s.fields.total) * s.fields.speed),
+            before.dissipated + over_step(lambda s: wet.dissipation(s.fields, s.sets)),
+            before.inflow + over_step(lambda s: wet.inflow(s.fields, s.sets)),
+        )
+        self.counts = self.counts._replace(steps=self.counts.steps + 1)
+
+
+def _extrapolated(before: MapFields, after: MapFields, at: float) -> MapFields:
+    """Fields on the line through two states, at a time over that between them; for guesses."""
+
+    def there(a: Any, b: Any) -> Any:
+        return a + at * (b - a)
+
+    return MapFields(*(there(a, b) for a, b in zip(before, after, strict=True)))

@@ -1,0 +1,265 @@
+r"""One implicit Euler stage of a wet map: semismooth Newton, GMRES without a matrix of the bodies.
+
+Rows are gaps, so that all errors are: :math:`h - m_0 + \tau/A\,L(h) p = 0` in cells that are full,
+:math:`h - h_c = 0` in contacts, whose film row has :math:`h = h_c`, and, where forces are imposed,
+their balance over the force that one unit of the rigid gap causes. In cavities the pressure is
+known and the content follows. The sets change with each iteration, all together: exchanging
+pressures and gaps between a film and an elastic solver diverges from beta of 0.01 on.
+
+The content at the end is that of the flow, in full cells too, where it is the gap up to the
+tolerance: so liquid is conserved to round-off, and what a step leaves is mended by the next.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....errors import ConvergenceError
+from ....numerics.gmres import gmres
+from ..drive import Driven, Imposed
+from ..step import StepFailedError
+from ..wet_gap import Sets
+from .preconditioner import LocalCompliance, Preconditioner, inertia, preconditioner
+from .wet_map import Flow, MapFields, WetMap
+
+__all__ = ["MapStepped", "Work", "step"]
+
+Array = NDArray[np.float64]
+
+_SOLVED = 1e-8  # rows, over the gap that the step changes or a tenth of the smallest gap
+_LEAST = 0.1  # of the smallest gap
+# Round-off: rows this small that an iteration does not halve are solved.
+_STALLED = 1e-5
+_MOST = 30  # Newton iterations; 3 to 4 are usual, 7 the most where many cells change sets
+# Of a linear system: three iterations reach 1e-8; 1e-2 takes four, 1e-5 saves none.
+_LINEAR = 1e-3
+_MOST_LINEAR = 120
+# Iterations beyond which new factors pay: with new ones 3 to 18 are usual.
+_STALE = 12
+_REUSED = 1.5  # ratio of the lengths of two steps up to which factors are kept
+# A gap may shrink to this part of itself in an iteration, where nothing can touch.
+_LEAST_GAP = 0.1
+
+
+class Work(NamedTuple):
+    """Iterations of a step: of Newton, of GMRES in each of these, and factorisations."""
+
+    newton: int
+    linear: tuple[int, ...]
+    factorisations: int
+
+
+class MapStepped(NamedTuple):
+    """End of a stage, and what it took; `kept` are factors for the next."""
+
+    fields: MapFields
+    sets: Sets
+    work: Work
+    kept: Preconditioner
+
+
+def step(
+    wet: WetMap,
+    local: LocalCompliance,
+    start: MapFields,
+    guess: tuple[MapFields, Sets],
+    time: float,
+    length: float,
+    kept: Preconditioner | None = None,
+) -> MapStepped:
+    """Solve an implicit Euler stage.
+
+    Parameters
+    ----------
+    wet : WetMap
+        The bodies.
+    local : LocalCompliance
+        Of the same bodies.
+    start : MapFields
+        Content, rigid gap and speed that the stage starts from.
+    guess : tuple of MapFields and Sets
+        Where the iteration starts.
+    time : float
+        Time at the end [s].
+    length : float
+        Length of the stage [s].
+    kept : Preconditioner, optional
+        Factors of an earlier stage, used while they are good.
+
+    Raises
+    ------
+    StepFailedError
+        If the iteration does not converge, or a gap closes where nothing can touch.
+    """
+    newton = _Newton(wet, local, start, guess, time, length)
+    newton.kept = kept
+    newton.solve()
+    work = Work(len(newton.linear), tuple(newton.linear), newton.n_factorisations)
+    assert newton.kept is not None
+    return MapStepped(newton.ended(), newton.sets, work, newton.kept)
+
+
+class _Newton:
+    """State of the iteration."""
+
+    def __init__(
+        self,
+        wet: WetMap,
+        local: LocalCompliance,
+        start: MapFields,
+        guess: tuple[MapFields, Sets],
+        time: float,
+        length: float,
+    ) -> None:
+        self.wet, self.local, self.start = wet, local, start
+        self.time, self.length = time, length
+        now, self.sets = guess
+        self.pressure, self.total, self.rigid_gap = now.pressure, now.total, now.rigid_gap
+        self.moves = isinstance(wet.drive, Driven)
+        if isinstance(wet.drive, Imposed):
+            self.rigid_gap = wet.drive.gap(time)
+        self.kept: Preconditioner | None = None
+        self.linear: list[int] = []
+        self.n_factorisations = 0
+        self.storing = length / wet.storage
+        self._settle()
+
+    def _settle(self) -> None:
+        """Pressures that obey the sets, and all that follows from them."""
+        wet, sets = self.wet, self.sets
+        self.pressure = np.where(sets.void, wet.floor, self.pressure)
+        self.total = np.where(sets.contact, self.total, self.pressure)
+        shape = wet.of_map(wet.shape)
+        self.gap = self.rigid_gap + shape + wet.displacement(self.total)
+        if not wet.cutoff and not (self.gap > 0.0).all():
+            raise StepFailedError("a gap closes")
+        self.height, self.follows = wet.conducting(self.gap, sets)
+        self.flow: Flow = wet.flow(self.height)
+        self.stored = self.start.content - self.storing * self.flow.out(self.pressure)
+        # Of the full film: the gap, or the cut-off in contacts.
+        self.held = np.where(sets.contact, wet.cutoff, self.gap)
+
+    def solve(self) -> None:
+        before = np.inf
+        moved = abs(self.rigid_gap - self.start.rigid_gap)
+        for count in range(_MOST):
+            changed = count > 0 and self._update_sets()
+            least = max(self.wet.cutoff, float(self.held.min()))
+            rows = self._rows()
+            size = float(np.abs(rows).max()) / max(moved, _LEAST * least)
+            is_solved = size < _SOLVED or (size < _STALLED and size > 0.5 * before)
+            if count > 0 and not changed and is_solved and self.kept is not None:
+                return
+            before = np.inf if changed else size
+            self._correct(rows)
+        raise StepFailedError(f"not converged: rows of {size:.1e}")
+
+    def _rows(self) -> Array:
+        film = np.where(self.sets.void, 0.0, self.held - self.stored)
+        contact = (self.gap - self.wet.cutoff)[self.sets.contact]
+        return np.concatenate([film, contact, self._motion()])
+
+    def _motion(self) -> Array:
+        """Unbalanced force over the force per rigid gap [m]; nothing of an imposed gap."""
+        drive = self.wet.drive
+        if not isinstance(drive, Driven):
+            return np.zeros(0)
+        needed = self._needed_factors()
+        speed = (self.rigid_gap - self.start.rigid_gap) / self.length
+        gained = drive.mass * (speed - self.start.speed) / self.length
+        spring = drive.stiffness * (drive.spring_end(self.time) - self.rigid_gap)
+        force = drive.force(self.time) + spring + self.wet.thrust(self.total)
+        return np.array([(gained - force) * needed.motion / self.wet.cell_area])
+
+    def _needed_factors(self) -> Preconditioner:
+        """Factors for the sets of now."""
+        kept = self.kept
+        if kept is not None:
+            same = all(np.array_equal(a, b) for a, b in zip(kept.sets, self.sets, strict=True))
+            ratio = max(kept.length, self.length) / min(kept.length, self.length)
+            if same and ratio < _REUSED and (not self.linear or self.linear[-1] <= _STALE):
+                return kept
+        try:
+            self.kept = preconditioner(
+                self.wet, self.local, self.flow, self.height, self.sets, self.length
+            )
+        except ConvergenceError as error:
+            raise StepFailedError(str(error)) from error
+        self.n_factorisations += 1
+        return self.kept
+
+    def _correct(self, rows: Array) -> None:
+        inverse = self._needed_factors()
+        apply = self._product(inverse)
+        found = gmres(apply, -rows, inverse, _LINEAR, _MOST_LINEAR)
+        self.linear.append(found.n_iterations)
+        if not np.isfinite(found.x).all():
+            raise StepFailedError("singular")
+        pressure, total, moved = self._changes(found.x)
+        scale = 1.0
+        if not self.wet.cutoff:
+            change = moved + self.wet.displacement(total)
+            closing = change < 0.0
+            room = (1.0 - _LEAST_GAP) * self.gap[closing] / -change[closing]
+            scale = min(1.0, float(room.min(initial=1.0)))
+        self.pressure = self.pressure + scale * pressure
+        self.total = self.total + scale * total
+        self.rigid_gap += scale * moved
+        self._settle()
+
+    def _changes(self, x: Array) -> tuple[Array, Array, float]:
+        """Changes of film pressures, of the pressures on the bodies, and of the rigid gap."""
+        n, contact = len(self.gap), self.sets.contact
+        pressure = np.where(self.sets.void, 0.0, x[:n])
+        total = pressure.copy()
+        total[contact] = x[n : n + int(contact.sum())]
+        return pressure, total, float(x[-1]) if self.moves else 0.0
+
+    def _product(self, inverse: Preconditioner) -> _Product:
+        slopes = self.wet.flow_slopes(self.flow, self.height, self.pressure)
+        return _Product(self, slopes, inverse)
+
+    def _update_sets(self) -> bool:
+        """Change the sets where their conditions fail; whether one did."""
+        wet, sets = self.wet, self.sets
+        void, contact = sets
+        if wet.floor > -np.inf:
+            void = np.where(sets.void, self.stored < self.held, self.pressure < wet.floor)
+        if wet.cutoff:
+            pressed = self.total > self.pressure
+            contact = np.where(sets.contact, pressed, self.gap < wet.cutoff)
+        if np.array_equal(void, sets.void) and np.array_equal(contact, sets.contact):
+            return False
+        self.sets = Sets(void, contact)
+        self._settle()
+        return True
+
+    def ended(self) -> MapFields:
+        speed = (self.rigid_gap - self.start.rigid_gap) / self.length
+        return MapFields(self.pressure, self.stored, self.total, self.rigid_gap, speed)
+
+
+class _Product:
+    """Product of the whole slope matrix with changes of the unknowns."""
+
+    def __init__(self, newton: _Newton, slopes: Any, inverse: Preconditioner) -> None:
+        self.newton, self.slopes, self.inverse = newton, slopes, inverse
+
+    def __call__(self, x: Array) -> Array:
+        newton, wet = self.newton, self.newton.wet
+        pressure, total, moved = newton._changes(x)
+        opened = moved + wet.displacement(total)
+        sets = newton.sets
+        free = np.where(newton.follows, opened, 0.0)
+        out = newton.flow.matrix @ pressure + self.slopes @ free
+        film = np.where(sets.contact, 0.0, opened) + newton.storing * out
+        parts = [np.where(sets.void, x[: len(film)], film), opened[sets.contact]]
+        if newton.moves:
+            drive = wet.drive
+            assert isinstance(drive, Driven)
+            force = inertia(drive, newton.length) * moved - wet.thrust(total)
+            parts.append(np.array([force * self.inverse.motion / wet.cell_area]))
+        return np.concatenate(parts)

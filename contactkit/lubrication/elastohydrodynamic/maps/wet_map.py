@@ -1,0 +1,244 @@
+r"""Film, solid contact and motion of two deforming bodies on a grid, in SI units.
+
+With the film pressure p, the pressure of the solids p_c where they touch, their sum P, the gap h
+and the liquid per area m, all above ambient:
+
+.. math::
+    h &= z + s(x, y) + C * P \\
+    \dot m &= \nabla \cdot \left( \frac{h^3}{12 \eta} \nabla p \right) \\
+    0 &\le p - p_f \perp h - m \ge 0, \qquad 0 \le P - p \perp h - h_c \ge 0
+
+What lies below the cut-off h_c of a contact conducts liquid as a film of h_c does, so that film and
+solids each have a pressure there: liquid under pressure lifts a contact, suction closes it. The rim
+is flooded. Cells are the finite volumes of :mod:`...reynolds.discretisation`; a cell at the rim
+stores liquid up to halfway to the rim, which makes the scheme second order.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from attrs import field, frozen
+from numpy.typing import NDArray
+
+from ....errors import DescriptionError
+from ...reynolds.discretisation import assembled, conductances
+from ...reynolds.face import Face
+from ...reynolds.mesh import Mesh, make_mesh
+from ..drive import Drive
+from ..wet_gap import Sets
+
+__all__ = ["Deformation", "Flow", "MapFields", "Rigid", "WetMap", "at_rest"]
+
+Array = NDArray[np.float64]
+
+
+class Deformation(Protocol):
+    """Elastic bodies, such as `contactkit.elasticity.isolated_map.IsolatedMap`."""
+
+    def displacement(self, pressure: Array) -> Array:
+        """Displacement [m] by a map of pressures [Pa]."""
+
+    def at_wavenumber(self, wavenumber: Array) -> Array:
+        """Displacement per pressure [m/Pa] of waves [1/m]."""
+
+
+class Rigid:
+    """Bodies that do not deform."""
+
+    def displacement(self, pressure: Array) -> Array:
+        """Zero."""
+        return np.zeros_like(pressure)
+
+    def at_wavenumber(self, wavenumber: Array) -> Array:
+        """Zero."""
+        return np.zeros_like(wavenumber)
+
+
+class MapFields(NamedTuple):
+    """State of the cells of film, in the order of the map, and of the motion.
+
+    Film pressure p [Pa], liquid per area m [m], pressure P on the bodies [Pa], shapes (n,); rigid
+    gap z [m] and its rate [m/s].
+    """
+
+    pressure: Array
+    content: Array
+    total: Array
+    rigid_gap: float
+    speed: float
+
+
+class Flow(NamedTuple):
+    """Film of one gap: flow out of the cells is `matrix @ p - inflow` [m3/s]."""
+
+    matrix: Any
+    inflow: Array
+    inner: Array
+    outer: Array
+
+    def out(self, pressure: Array) -> Array:
+        """Flow out of each cell [m3/s]."""
+        return np.asarray(self.matrix @ pressure - self.inflow)
+
+
+@frozen(eq=False)
+class WetMap:
+    """Two bodies with a film on a grid between them.
+
+    Parameters
+    ----------
+    face : Face
+        Cells of film and what is around them; a reservoir has its pressure above ambient. Without
+        pockets.
+    shape : ndarray, shape (ny, nx)
+        Gap of the undeformed bodies less their rigid gap [m].
+    viscosity : float
+        [Pa.s]
+    deformation : Deformation
+        Displacement of both bodies by the pressures of the cells.
+    drive : Imposed or Driven
+        What moves the bodies.
+    floor : float
+        Pressure of a cavity above ambient [Pa]; -inf: none opens.
+    cutoff : float
+        Gap at which asperities touch [m]; 0: none do.
+
+    Raises
+    ------
+    DescriptionError
+        If the face has pockets.
+    """
+
+    face: Face
+    shape: Array = field(repr=False)
+    viscosity: float
+    deformation: Deformation
+    drive: Drive
+    floor: float = -math.inf
+    cutoff: float = 0.0
+    mesh: Mesh = field(init=False, repr=False)
+    storage: Array = field(init=False, repr=False)
+
+    @mesh.default
+    def _mesh(self) -> Mesh:
+        if self.face.pockets:
+            cure = "make them holes at a pressure, or take GridFilm with rigid bodies"
+            raise DescriptionError(
+                "WetMap.face", f"{len(self.face.pockets)} pockets", "have none", hint=cure
+            )
+        return make_mesh(self.face)
+
+    @storage.default
+    def _storage(self) -> Array:
+        """Area of each cell that stores liquid [m2]: up to halfway to the rim."""
+        mesh = self.mesh
+        at_rim = mesh.number[mesh.rim.cell]
+        excess = np.bincount(at_rim, weights=mesh.rim.excess, minlength=mesh.size)
+        return np.asarray(mesh.area * (1.0 - excess))
+
+    @property
+    def cell_area(self) -> float:
+        """Area on which the pressure of a cell acts [m2]."""
+        return self.face.cell_area
+
+    def on_map(self, values: Array, outside: float = 0.0) -> Array:
+        """Map of values of the cells of film."""
+        found = np.full(self.face.level.size, outside)
+        found[self.mesh.loaded] = values
+        return found.reshape(self.face.shape)
+
+    def of_map(self, values: Array) -> Array:
+        """Values of the cells of film."""
+        return values.ravel()[self.mesh.loaded]
+
+    def displacement(self, total: Array) -> Array:
+        """Displacement of both bodies [m], shape (n,)."""
+        return self.of_map(self.deformation.displacement(self.on_map(total)))
+
+    def gap(self, now: MapFields) -> Array:
+        """Gap of the deformed bodies [m], shape (n,)."""
+        return now.rigid_gap + self.of_map(self.shape) + self.displacement(now.total)
+
+    def thrust(self, pressure: Array) -> float:
+        """Force of a pressure on the face [N]."""
+        return float(pressure.sum()) * self.cell_area
+
+    def volume(self, content: Array) -> float:
+        """Volume of a liquid per area, or of a gap [m3]."""
+        return float(self.storage @ content)
+
+    def elastic_energy(self, now: MapFields) -> float:
+        """Energy stored in the bodies [J]."""
+        return 0.5 * self.thrust(now.total * self.displacement(now.total))
+
+    def conducting(self, gap: Array, sets: Sets) -> tuple[Array, NDArray[np.bool_]]:
+        """Gap that conducts liquid [m], and where it follows that of the bodies."""
+        if not self.cutoff:
+            return gap, np.ones(len(gap), dtype=bool)
+        above = (gap > self.cutoff) & ~sets.contact
+        return np.where(above, gap, self.cutoff), above
+
+    def flow(self, gap: Array) -> Flow:
+        """Conductances of a gap."""
+        mesh = self.mesh
+        inner, outer = conductances(mesh, self.on_map(gap**3 / (12.0 * self.viscosity)).ravel())
+        matrix = assembled(mesh, [inner, inner, -inner, -inner, outer])
+        at_rim = mesh.number[mesh.rim.cell]
+        inward = np.bincount(at_rim, weights=outer * self._rim_pressure(), minlength=mesh.size)
+        return Flow(
+            matrix, inward.astype(float), np.asarray(inner, float), np.asarray(outer, float)
+        )
+
+    def flow_slopes(self, flow: Flow, gap: Array, pressure: Array) -> Any:
+        """Derivative of the flow out of each cell by the gaps, sparse [m2/s]."""
+        mesh = self.mesh
+        i, j = mesh.number[mesh.sides.low], mesh.number[mesh.sides.high]
+        at_rim = mesh.number[mesh.rim.cell]
+        cube = gap**3
+        # Of the harmonic mean of the two conductivities: that of the smaller gap counts more.
+        by_low = 3.0 * flow.inner * cube[j] / ((cube[i] + cube[j]) * gap[i])
+        by_high = 3.0 * flow.inner * cube[i] / ((cube[i] + cube[j]) * gap[j])
+        drop = pressure[i] - pressure[j]
+        rim = 3.0 * flow.outer / gap[at_rim] * (pressure[at_rim] - self._rim_pressure())
+        values = [by_low * drop, -by_high * drop, by_high * drop, -by_low * drop, rim]
+        return assembled(mesh, values)
+
+    def dissipation(self, now: MapFields, sets: Sets) -> float:
+        """Power that the film dissipates [W]."""
+        mesh = self.mesh
+        flow = self.flow(self.conducting(self.gap(now), sets)[0])
+        p = now.pressure
+        drop = p[mesh.number[mesh.sides.low]] - p[mesh.number[mesh.sides.high]]
+        at_rim = p[mesh.number[mesh.rim.cell]] - self._rim_pressure()
+        return float(flow.inner @ drop**2 + flow.outer @ at_rim**2)
+
+    def inflow(self, now: MapFields, sets: Sets) -> float:
+        """Flow of liquid in through the rim [m3/s]."""
+        mesh = self.mesh
+        flow = self.flow(self.conducting(self.gap(now), sets)[0])
+        at_rim = now.pressure[mesh.number[mesh.rim.cell]]
+        return float(flow.outer @ (self._rim_pressure() - at_rim))
+
+    def _rim_pressure(self) -> Array:
+        return np.asarray(self.face.pressure.ravel()[self.mesh.rim.beyond], float)
+
+
+def at_rest(wet: WetMap, rigid_gap: float) -> MapFields:
+    """Fields of bodies at rest with a full film of ambient pressure.
+
+    Raises
+    ------
+    DescriptionError
+        If the gap is closed somewhere.
+    """
+    gap = rigid_gap + wet.of_map(wet.shape)
+    if not gap.min() > 0.0:
+        row, column = np.divmod(wet.mesh.loaded[gap.argmin()], wet.face.shape[1])
+        place = f"{float(gap.min())!r} in row {row}, column {column}"
+        cure = "start from a larger rigid gap, and press the bodies together from there"
+        raise DescriptionError("gap", place, "be positive", unit="m", hint=cure)
+    none = np.zeros(wet.mesh.size)
+    return MapFields(none, gap, none, rigid_gap, 0.0)
