@@ -135,7 +135,9 @@ def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any])
         "stiction-force" if film_alone else "stiction-mass"
     )
     film, start = native_scene(opened or _Named(FmuStart(what, given)), _film_model(model))
-    build_native(film, order.out, model=kind, start=start, fmi=fmi)
+    accuracy = getattr(opened, "accuracy", None)
+    rtol = None if accuracy is None else accuracy.film_rtol
+    build_native(film, order.out, model=kind, start=start, fmi=fmi, film_rtol=rtol)
     return f"{kind}, native, FMI {fmi}.0"
 
 

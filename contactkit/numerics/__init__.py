@@ -12,5 +12,6 @@ cubic_spline    A cubic spline through points.
 monotone_cubic  Curves through points that keep the order of their values.
 lines           Points of curves between which straight lines are right.
 fixed_point     Fixed points of expensive maps: accelerated, evaluated no better than needed.
+blas            Linear algebra of small matrices on one thread.
 fft             Real two-dimensional transforms: scipy.fft always, ducc0 where it is installed.
 """

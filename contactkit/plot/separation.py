@@ -85,9 +85,9 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
             where=acts,
             transform=ax.get_xaxis_transform(),
             facecolor="none",
-            edgecolor="0.8",
-            hatch="///",
-            lw=0.0,
+            edgecolor="0.75",
+            hatch="////",
+            lw=0.5,  # a frame: the hatch alone does not show in the legend
             zorder=0.0,
             label="limit of the liquid acts",
         )

@@ -50,7 +50,7 @@ PAGES: Mapping[str, Page] = {
         "injector.md, hosts.md, fmu.md: delays, errors of steps", 2, (("injector", "--write"),)
     ),
     "bridges": Page("bridges.md and its picture", 1, _measured("bridges")),
-    "films": Page("films.md and its pictures", 3, _measured("films")),
+    "films": Page("films.md and its pictures, fmu-native.md: cavities", 3, _measured("films")),
     "deforming": Page("img/deforming-pull.png", 0.3, (("deforming",),)),
     "adhesion": Page("adhesion.md and its picture", 10, _measured("adhesion")),
     "claims": Page("errata.md: statements of chapter 2", 3, _measured("claims")),

@@ -13,6 +13,7 @@ sources      The sources of the kernel of a native FMU: its files, and those mad
              description.
 faces        The load-displacement curve of rough faces as the record that the C kernel reads.
 film         The film of a scene as the tables that the C kernel of a native FMU reads.
+grid         Grid of a film that cavitates on a face that is no disc.
 tables       Functions of the gap as quintic Hermite tables, for the C kernel of a native FMU.
 ports        The variables of a native FMU: those of the Python FMU of that name that a table
              leaves free.

@@ -36,7 +36,7 @@ from ..framework.toolchain import (
 from ..slaves.stiction_mass import scene_of
 from .data import contents_of, data_file, digest, guid_of
 from .description import CATEGORIES, description_files
-from .film import moving, prepared_film
+from .film import FINE, moving, prepared_film
 from .models import native_model
 from .page import native_page
 from .ports import Model, check_free, native_ports
@@ -67,6 +67,7 @@ def build_native(
     platforms: Sequence[str] | None = None,
     compiler: str = "auto",
     fmi: Literal[2, 3] = 2,
+    film_rtol: float | None = None,
 ) -> Path:
     """Write an FMU of any scene that runs without Python (co-simulation).
 
@@ -89,6 +90,10 @@ def build_native(
         See `toolchain.compile_kernel`.
     fmi : {2, 3}
         Version of FMI. FMI 3.0 has event mode, with early return at a rupture.
+    film_rtol : float, optional
+        Error that the grid of a face that is no disc may leave in its force [-], as that of
+        `Accuracy`, by default the same. The cost of a step with a cavity grows with the cells,
+        of which there are 0.1/film_rtol across the face, or more.
 
     Returns
     -------
@@ -112,7 +117,7 @@ def build_native(
     if model == "stiction-force" and "h0" in given:
         given.setdefault("h", given["h0"])
     scene = moving(scene, mass)
-    film = prepared_film(scene)
+    film = prepared_film(scene, FINE if film_rtol is None else evolve(FINE, film_rtol=film_rtol))
     ports = native_ports(film.prepared, film.lowest, model, film.force)
     values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
     check_free(ports, model, given)

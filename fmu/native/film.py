@@ -16,9 +16,9 @@ from ...separation.effects.base import FilmEnd, SeparationForce
 from ...separation.effects.film_shape import FilmShape
 from ...separation.effects.force_law import ForceLaw, measured_rate
 from ...separation.effects.prepared import PreparedScene, with_fraction
-from ...separation.effects.viscous import TensionLimit, ViscousForce, viscous_film
+from ...separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce, viscous_film
 from ...separation.plan import Plan, plan
-from .records import Film, FilmTables, Law, Rate, Scale, Table
+from .records import Film, FilmTables, Grid, Law, Rate, Scale, Table
 from .tables import tabulate
 
 __all__ = ["FINE", "PreparedFilm", "can_cavitate", "free_liquid", "moving", "prepared_film"]
@@ -103,12 +103,12 @@ def prepared_film(scene: SeparationScene, accuracy: Accuracy = FINE) -> Prepared
     ContactkitError
         If the scene cannot be planned, or a force is too rough for a table.
     """
-    _check_face(scene)
     made = plan(scene, accuracy)
     interface, loading, fraction = scene.interface, scene.loading, scene.meniscus.rewetting
     returns = scene.meniscus.volume is not None and 0.0 < fraction < 1.0
     tension = scene.effect(TensionLimit)
     common = _Common(made, free_liquid(made.prepared), max(1e-13, 1e-3 * loading.initial_gap))
+    _check_limits(common)
     tables = FilmTables(
         is_sphere=not interface.is_flat,
         sphere_radius=interface.sphere_radius,
@@ -116,19 +116,10 @@ def prepared_film(scene: SeparationScene, accuracy: Accuracy = FINE) -> Prepared
         reynolds=tension is not None and tension.cavity == "reynolds",
         rewetting=fraction,
         films=tuple(_film(common, one) for one in ((1.0, fraction) if returns else (1.0,))),
+        grid=_grid(common),
     )
     force = made.film.static_force(loading.initial_gap)
     return PreparedFilm(tables, common.lowest, force, made.prepared)
-
-
-def _check_face(scene: SeparationScene) -> None:
-    """Refuse a cavity whose memory is a map."""
-    if scene.effect(TensionLimit) is not None and not scene.interface.has_discs:
-        raise PlanError(
-            "TensionLimit has no native form on a face that is no even disc: what its cavity "
-            "remembers is a map of the liquid, which the kernel does not hold; leave it out for a "
-            "film that never cavitates, or run the scene by ck.simulate"
-        )
 
 
 class _Common(NamedTuple):
@@ -157,7 +148,7 @@ def _film(common: _Common, fraction: float) -> Film:
     rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
     is_liquid = any(kind.newtonian is not None for kind in film.laws)
     shape = viscous_film(prepared) if is_liquid else None
-    disc = shape if can_cavitate(made.scene) else None
+    disc = shape if can_cavitate(made.scene) and made.scene.interface.has_discs else None
     laws = [law for effect in forces for law in _laws(common, effect, film.laws[type(effect)])]
     if len(laws) > Film.most("laws"):
         raise PlanError(
@@ -175,11 +166,44 @@ def _film(common: _Common, fraction: float) -> Film:
     )
 
 
+def _check_limits(common: _Common) -> None:
+    """Refuse limits of a film whose viscosity is no parameter: the kernel would have none."""
+    if common.free.viscosity:
+        return
+    for effect in common.plan.scene.effects:
+        if isinstance(effect, TensionLimit | ShearLimit):
+            raise PlanError(
+                f"{type(effect).__name__} has no native form beside a force that is not "
+                "proportional to the viscosity it reads; leave that out, or run the scene by "
+                "ck.simulate"
+            )
+
+
 def can_cavitate(scene: SeparationScene) -> bool:
-    """Whether the film of a scene may have a cavity: one between discs, with a viscous force."""
+    """Whether the film of a scene may have a cavity that is remembered.
+
+    One between discs may in any case; one on another face where the scene has a `TensionLimit`, as
+    it takes a grid.
+    """
     interface = scene.interface
-    is_disc = interface.is_flat and interface.has_discs
-    return is_disc and scene.effect(ViscousForce) is not None
+    if scene.effect(ViscousForce) is None:
+        return False
+    if not interface.has_discs:
+        return scene.effect(TensionLimit) is not None
+    return interface.is_flat
+
+
+def _grid(common: _Common) -> Grid | None:
+    """Grid of a film that cavitates on a face that is no disc."""
+    cavity = common.plan.film.cavity
+    if cavity is None or common.plan.prepared.face_film is None:
+        return None
+    from ...separation.face.cavity import FaceCavity
+    from .grid import grid_record
+
+    if not isinstance(cavity, FaceCavity):
+        return None
+    return grid_record(cavity, (common.lowest, _FARTHER * common.final_gap))
 
 
 def _laws(common: _Common, effect: SeparationForce, law: ForceLaw) -> list[Law]:

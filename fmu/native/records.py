@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from enum import IntEnum
 from typing import ClassVar
 
@@ -23,15 +24,20 @@ from .record import (
 )
 
 __all__ = [
+    "Cells",
     "Curve",
     "Faces",
     "Film",
     "FilmTables",
+    "Grid",
     "Law",
+    "Onset",
     "Piece",
+    "PocketSides",
     "PowerCurve",
     "Rate",
     "Scale",
+    "Sides",
     "Table",
     "Unloading",
 ]
@@ -112,6 +118,56 @@ class Film(Record):
 
 
 @frozen(kw_only=True)
+class Cells(Record):
+    """Cells of a film on a grid, in the order in which they are eliminated; a pocket is one."""
+
+    area: tuple[float, ...] = column("area [m2]")
+    relief: tuple[float, ...] = column("gap beside the shortest distance of the faces [m]")
+    extra: tuple[float, ...] = column("volume that a pocket has besides its gap [m3]")
+    rim: tuple[float, ...] = column("conductance to the rim over h^3/(12 eta) [-]")
+    excess: tuple[float, ...] = column("fraction of its source beyond the flux there [-]")
+
+
+@frozen(kw_only=True)
+class Sides(Record):
+    """Sides between two cells of film, by their numbers from 0."""
+
+    one: tuple[float, ...] = column("a cell")
+    other: tuple[float, ...] = column("the other cell")
+    geometry: tuple[float, ...] = column("width over the distance of the centres [-]")
+
+
+@frozen(kw_only=True)
+class PocketSides(Record):
+    """Sides between a cell of film and a pocket, where the gap of the cell counts."""
+
+    cell: tuple[float, ...] = column("the cell of film")
+    pocket: tuple[float, ...] = column("the pocket")
+    geometry: tuple[float, ...] = column("conductance over h^3/(12 eta) [-]")
+    excess: tuple[float, ...] = column("fraction of its source beyond the flux there [-]")
+
+
+@frozen(kw_only=True)
+class Onset(Record):
+    """Highest tension of a full film over its force: straight lines, constant beyond them."""
+
+    depth: float = real("what is added to the gap before its logarithm is taken [m]")
+    place: tuple[float, ...] = column("ln of a gap and that", ascends=True)
+    ratio: tuple[float, ...] = column("ln of its highest tension over its force, times 1 m2")
+
+
+@frozen(kw_only=True)
+class Grid(Record):
+    """A film that cavitates on a face that is no disc: finite volumes, and where it begins."""
+
+    rtol: float = real("error of the force that the grid leaves [-]", sys.float_info.min, 1.0)
+    onset: Onset = part(Onset, "its highest tension while it is full")
+    cells: Cells = part(Cells, "its cells")
+    sides: Sides = part(Sides, "between them")
+    pockets: PocketSides | None = maybe(PocketSides, "sides to sealed holes")
+
+
+@frozen(kw_only=True)
 class FilmTables(Record):
     """The film of a scene, and what is left of it after a rupture."""
 
@@ -121,6 +177,7 @@ class FilmTables(Record):
     reynolds: bool = flag("whether cavities begin where the pressure has its minimum")
     rewetting: float = real("fraction of the volume that is there after a rupture [-]", 0.0, 1.0)
     films: tuple[Film, ...] = several(Film, "as given, and re-wetted", most=2, least=1)
+    grid: Grid | None = maybe(Grid, "of a film that cavitates on a face that is no disc")
 
 
 @frozen(kw_only=True)

@@ -74,6 +74,7 @@ FIELDS = [
     (SUMMITS, "rms_height", "m", NON_NEGATIVE, [-1e-9, None]),
     (SUMMITS, "count", "", WHOLE, [0, -1, 2.5]),
     (ck.AsperityMenisci(asperities=SUMMITS), "meniscus_height", "m", POSITIVE, [0.0, -1e-9]),
+    (ck.SolidContact(cutoff=1e-8), "cutoff", "m", POSITIVE, [0.0, -1e-9, None]),
     (FILM, "contact_angle_lower", "rad", ANGLE, [-0.1, 3.2, None]),
     (FILM, "contact_angle_upper", "rad", ANGLE, [-0.1, 181.0, None]),
     (FILM, "count", "", WHOLE, [0, -1, 1.0, 2.5, None]),

@@ -14,6 +14,7 @@ import numpy as np
 from attrs import evolve, frozen
 from numpy.typing import NDArray
 
+from ...numerics.blas import one_thread
 from .drive import Drive, Driven, Imposed
 from .follow import Control, State, Track, begun, follow
 from .mesh import RingMesh, disc_nodes, graded_nodes
@@ -157,6 +158,7 @@ class _Run(NamedTuple):
     counts: tuple[int, int, int]
 
 
+@one_thread()
 def move(
     film: SmoothGap,
     phases: Sequence[Phase],

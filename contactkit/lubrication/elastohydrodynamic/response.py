@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...numerics.blas import one_thread
 from .mesh import RingMesh, Tridiagonal
 
 __all__ = [
@@ -47,6 +48,7 @@ class Modulus(NamedTuple):
     error: Array
 
 
+@one_thread()
 def modulus(
     mesh: RingMesh, gap: Array, compliance: Array, viscosity: float, frequencies: Sequence[float]
 ) -> NDArray[np.complex128]:

@@ -80,8 +80,8 @@ _ELEMENTS, _ERROR = 48, 1e-3
 _FEWEST, _MOST = 24, 192  # that still show the pressure; that still take a minute
 # Numbers above which an effect that is off would change the force by about 1 % (physics of each:
 # first correction of a rigid sphere; tension in half of the strength; film that no rest drains).
-_TEARS_FROM, _FLOATS_BELOW = 0.5, 10.0
-_ATMOSPHERE = 101_325.0  # [Pa], tension at which a liquid without a strength of its own tears
+_CAVITATES_FROM, _FLOATS_BELOW = 0.5, 10.0
+_ATMOSPHERE = 101_325.0  # [Pa], tension at which a liquid without a strength of its own cavitates
 _CONTINUUM = 2e-9  # [m], gap that no smooth film reaches without asperities that carry
 
 
@@ -399,7 +399,7 @@ def _notes(plan: DeformingPlan) -> Iterator[str]:
         )
     if scene.effect(TensionLimit) is not None:
         share = 3.0 * film.strength / numbers.tension
-        yield f"strength of the liquid over eta v w^2/h^3 = {share:.3g} (rigid: tears below 3)"
+        yield f"strength of the liquid over eta v w^2/h^3 = {share:.3g} (rigid: cavitates below 3)"
     yield from _on_rest(plan)
     yield from _should_be_on(plan)
 
@@ -416,8 +416,8 @@ def _should_be_on(plan: DeformingPlan) -> Iterator[str]:
     """Effects that are off, and whose numbers ask for them."""
     film, scene, numbers = plan.film, plan.scene, plan.numbers
     softened = numbers.tension / (1.0 + numbers.beta)
-    tears = softened > _TEARS_FROM * _ATMOSPHERE and film.wetting is None
-    if tears and scene.effect(TensionLimit) is None:
+    cavitates = softened > _CAVITATES_FROM * _ATMOSPHERE and film.wetting is None
+    if cavitates and scene.effect(TensionLimit) is None:
         yield (
             f"tension-limit is off, and the film would bear some {quantity_text(softened, 'Pa')} "
             "of tension: list TensionLimit()"

@@ -27,6 +27,17 @@ ANALYSES: Mapping[str, tuple[str, str]] = {
         "solves of `load_curve`, with a monotone interpolation whose error it reports",
         "tests/contact/effects/test_plastic_history.py",
     ),
+    **dict.fromkeys(
+        ("pull_off_over_speed", "release_over", "stiction_table"),
+        (
+            "runs of `simulate`, each with its own error",
+            "tests/analyses/test_deforming_analyses.py",
+        ),
+    ),
+    "modulus_curve": (
+        "three meshes, extrapolated: 4e-5",
+        "tests/lubrication/elastohydrodynamic/test_reference_cases.py",
+    ),
     "stream_study": (
         "points of `study`, one by one",
         "tests/studies/test_study_stream.py",

@@ -196,7 +196,38 @@ TENSION, SHEAR = ck.TensionLimit(strength=1e6), ck.ShearLimit(strength=1e5)
 VDW = ck.VanDerWaalsForce(hamaker_constant=1e-19)
 TOUCHING = ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=1e11)
 
+
+def gel(loading: Any, *effects: Any) -> ck.SeparationScene:
+    """A rigid lens of 5 mm on a gel, flooded with an oil."""
+    soft = ck.Material(young_modulus=1e6, poisson_ratio=0.5)
+    oil = ck.Meniscus(liquid=ck.Liquid(name="oil", viscosity=0.1))
+    return ck.SeparationScene(
+        interface=ck.Interface(
+            lower=ck.Body(solid=soft), upper=ck.Sphere(radius=5e-3), meniscus=oil
+        ),
+        loading=loading,
+        effects=(ck.ElasticBodies(), VISCOUS, *effects),
+    )
+
+
+LENS = "a rigid lens of 5 mm on a gel of 1 MPa in oil, "
+DRAWN = ck.ImposedSpeed(speed=1e-5, initial_gap=1e-6, final_gap=5e-6)
+PRESSED = ck.PressAndPull(press=1e-4, rest=5.0, speed=1e-5, initial_gap=1e-6, final_gap=5e-6)
+
 SEPARATIONS: Mapping[type, Entry] = {
+    ck.ElasticBodies: _entry(
+        r"h = z + \frac{r^2}{2R} + C * (p + p_c)",
+        LENS + "drawn apart from 1 um to 5 um at 10 um/s",
+        gel(DRAWN),
+        ck.ElasticBodies,
+        instead="rigid bodies",
+    ),
+    ck.SolidContact: _entry(
+        r"0 \le p_c \perp h - h_c \ge 0",
+        LENS + "pressed by 0.1 mN for 5 s, drawn apart; asperities of 0.2 um",
+        gel(PRESSED, ck.SolidContact(cutoff=2e-7)),
+        ck.SolidContact,
+    ),
     ck.MeniscusForce: _entry(
         r"F = 2 \pi \gamma\, x \sin\varphi - \pi x^2 \Delta p",
         DISC,

@@ -15,7 +15,9 @@
    1e-4 off with 1e-8, some 1e-5 with this and below; each quarter takes 1.4 times the steps. */
 #define VOID 1e-9
 #define MOST_STOPS 1000 /* kinks and limits met in one step of the host; a film has some ten */
-#define MOST_STEPS 5000 /* of a cavity, in one step of the host: 20 to 40 us each where values are hostile */
+/* What a cavity may cost in one step of the host: 5000 steps between discs, of 20 to 40 us each where
+   values are hostile, and 142 on a grid of 7000 cells. */
+#define MOST_COST 100000
 
 
 static const char *apply(ck_model *model) { return ck_common_parameters(model); }
@@ -58,24 +60,15 @@ static double gap_of(const ck_model *model) {
 /* Forces at a gap and a speed with a cavity whose edge and rim stay, and the radius of the edge. */
 static void forces_of(const ck_model *model, const ck_acting *acting, double gap, double speed,
                       ck_forces *found, double *radius) {
-    static const ck_cavity whole;
     const ck_memory *memory = &model->state.memory;
     const ck_cavity_law *law = acting->any ? acting->law : NULL;
     ck_place at = {gap, speed};
-    double fraction = memory->cavity.fraction, before = memory->gap, ignored;
     ck_spot spot;
     *radius = 0.0;
     ck_forces_at(acting, gap, speed, found);
     if (!law) return;
-    if (ck_is_inception(law, &memory->cavity, at)) {
-        fraction = ck_receding_edge(ck_tension_at(law, gap, speed, whole.hollow) / law->drop);
-        before = gap;
-    } else if (memory->cavity.phase == CK_FULL) {
-        return;
-    }
-    memset(&spot, 0, sizeof spot);
-    spot.rim = ck_rim(law, before, memory->cavity.hollow, &ignored);
-    spot.fraction = fraction, spot.edge = fraction * spot.rim;
+    if (memory->cavity.phase == CK_FULL && !ck_is_inception(law, &memory->cavity, at)) return;
+    ck_spot_of(law, &memory->cavity, memory->gap, at, &spot);
     ck_forces_with(acting, &spot, at, found);
     *radius = sqrt(spot.edge);
 }
@@ -183,17 +176,17 @@ static int free_of(const ck_acting *acting) {
 
 /* Go along a stretch with a film that remembers its cavity: its viscous impulse, and the time of the
    stretch at which it cavitated or was full again last. nan if there is no way, or it is too long:
-   `left` are the steps that it may take. */
+   `left` is what it may cost. */
 static double with_memory(ck_model *model, const ck_acting *acting, double from, double to, double length,
                           int *left, double *changed) {
     ck_cavity *cavity = &model->state.memory.cavity;
     ck_place at = {from, (to - from) / length};
     int was = cavity->phase == CK_FULL && !ck_is_inception(acting->law, cavity, at), full;
-    int found = CK_PATH_STEP;
+    int found = CK_PATH_STEP, tries = 0;
     double total = 0.0, part, gap = from;
     ck_path path;
     ck_path_begin(&path, acting->law, cavity, at, length, VOID, 0.0);
-    while ((*left)-- > 0 && (found = ck_path_next(&path, &part, &full)) == CK_PATH_STEP) {
+    while (*left >= 0 && (found = ck_path_next(&path, &part, &full)) == CK_PATH_STEP) {
         double after = path.time == length ? to : path.first + path.speed * path.time;
         if (after != gap && (full || free_of(acting))) {
             ck_impulse along = ck_along(acting, gap, after, (after - gap) / path.speed);
@@ -202,6 +195,7 @@ static double with_memory(ck_model *model, const ck_acting *acting, double from,
         total += part;
         if (was != (cavity->phase == CK_FULL)) was = !was, *changed = path.time;
         gap = after;
+        *left -= ck_cavity_cost(acting->law) * (path.tries - tries), tries = path.tries;
     }
     return found == CK_PATH_END ? total : NAN;
 }
@@ -295,7 +289,7 @@ static int step(ck_model *model, double time, double length) {
     ck_state before = *state;
     double *v = state->values;
     double changed = time;
-    int left = MOST_STEPS;
+    int left = MOST_COST;
     ck_impulse done = go(model, time, length, v[CK_H], &left, &changed);
     double elapsed = state->memory.pending ? state->end - time : length;
     ck_acting acting;

@@ -40,6 +40,8 @@ int ck_model_open(ck_model *model, const char *resources, const char *guid) {
     int length = snprintf(path, sizeof path, "%s/film.bin", resources);
     if (length < 0 || (size_t)length >= sizeof path) problem = "its path is too long";
     else problem = ck_data_read(path, &model->data);
+    if (!problem && model->data.contents.has_tables && model->data.contents.tables.has_grid)
+        problem = ck_grid_open(&model->grid, &model->data.contents.tables.grid);
     if (!problem && strcmp(guid, model->data.guid) != 0)
         problem = "it belongs to an FMU with another GUID";
     if (!problem) {
@@ -55,6 +57,7 @@ int ck_model_open(ck_model *model, const char *resources, const char *guid) {
 }
 
 void ck_model_close(ck_model *model) {
+    ck_grid_close(&model->grid);
     free(model->data.numbers);
     free(model->data.cells);
     model->data.numbers = NULL, model->data.cells = NULL;
@@ -63,6 +66,7 @@ void ck_model_close(ck_model *model) {
 void ck_model_reset(ck_model *model) {
     int i;
     memset(&model->state, 0, sizeof model->state);
+    ck_grid_put(&model->grid, NULL);
     model->state.checksum = model->data.checksum;
     model->state.stop_time = HUGE_VAL;
     model->state.shown = 1;
@@ -147,6 +151,16 @@ const char *ck_wrong(ck_model *model, int id, const char *must, int other, const
     return model->wrong;
 }
 
+/* Damping of the liquid over its viscosity, or NULL. */
+static const ck_table *damping_of(const ck_film *film) {
+    int i;
+    for (i = 0; i < film->n_laws; i++) {
+        const ck_law *law = &film->laws[i];
+        if (law->rate == CK_RATE_LIQUID && law->scale == CK_SCALE_VISCOSITY) return &law->table;
+    }
+    return NULL;
+}
+
 /* The tensions at which the films cavitate, and that of their cavities; what is wrong with them. */
 static const char *tensions(ck_model *model, double strength, double hold) {
     const double *v = model->state.values;
@@ -162,7 +176,9 @@ static const char *tensions(ck_model *model, double strength, double hold) {
         ck_cavity_law *law = &scene->laws[i];
         law->menisci = scene->tables->menisci, law->viscosity = scene->viscosity;
         law->rim_square = film->rim_square, law->volume = film->volume;
-        law->strength = film->rim_square > 0.0 ? strength : 0.0;
+        law->damping = damping_of(film);
+        law->grid = scene->tables->has_grid && law->damping ? &model->grid : NULL;
+        law->strength = film->rim_square > 0.0 || law->grid ? strength : 0.0;
         law->drop = hold > 0.0 ? hold : strength;
     }
     return NULL;
@@ -362,7 +378,9 @@ int ck_model_step(ck_model *model, double time, double step) {
     if (length <= nothing) return put_off(model, time, step);
     ck_events_lift(model, seen);
     state->cut = 0;
+    ck_grid_keep(&model->grid);
     status = ck_model_kind(model)->step(model, time, length);
+    if (status != CK_OK) ck_grid_go_back(&model->grid);
     ck_events_hold(model, seen);
     if (status != CK_OK) return status;
     state->time = ck_model_pends(model) || state->cut ? state->end : time + step;
@@ -374,15 +392,26 @@ int ck_model_step(ck_model *model, double time, double step) {
     return state->failed ? CK_DISCARD : CK_OK;
 }
 
-int ck_model_restore(ck_model *model, const ck_state *state) {
+/* Whether the liquid of a film on a grid is one. */
+static int is_liquid(const ck_model *model, const ck_state *state, const double *liquid) {
+    int i, any = state->motion.cavity.phase != CK_FULL || state->memory.cavity.phase != CK_FULL;
+    if (!liquid) return 0; /* of a grid of another size */
+    for (i = 0; any && i < model->grid.n; i++)
+        if (!(liquid[i] >= 0.0 && liquid[i] < HUGE_VAL)) return 0;
+    return 1;
+}
+
+int ck_model_restore(ck_model *model, const ck_state *state, const double *liquid) {
     int count = model->data.contents.has_tables ? model->data.contents.tables.n_films : 1;
     if (state->checksum != model->data.checksum || state->phase < CK_INSTANTIATED ||
         state->phase > CK_TERMINATED || state->motion.film < 0 || state->motion.film >= count ||
         state->memory.film < 0 || state->memory.film >= count ||
-        !ck_is_cavity(&state->motion.cavity) || !ck_is_cavity(&state->memory.cavity))
+        !ck_is_cavity(&state->motion.cavity) || !ck_is_cavity(&state->memory.cavity) ||
+        !is_liquid(model, state, liquid))
         return ck_model_fail(model, "the FMU state is not one of this FMU; take it from this FMU, "
                                     "and keep its bytes unchanged");
     model->state = *state;
+    ck_grid_put(&model->grid, liquid);
     if (state->phase >= CK_STEPPING) ck_model_kind(model)->apply(model);
     ck_events_skip(model);
     return CK_OK;
@@ -452,38 +481,59 @@ void ck_events_skip(ck_model *model) {
 
 /* FMU states ----------------------------------------------------------------------------------- */
 
-/* Serialized: letters and a checksum, then the state as it lies in memory. */
+/* A state that a host keeps; the liquid of so many cells of a grid follows it. */
+typedef struct {
+    int64_t cells;
+    ck_state state;
+} ck_saved;
+
+/* Serialized: letters and a checksum, then the state as it lies in memory, and the liquid. */
 #define HEAD 16u
-#define SIZE (HEAD + sizeof(ck_state))
 
 static const char NO_STATE[] = "that is no FMU state, or it was freed; take one first";
 
-/* A state the host may keep: its own if it has one, else a new one. */
-static int keep(ck_model *model, const ck_state *content, void **state) {
-    ck_state *own = (ck_state *)ck_handle_content(CK_STATES, *state);
-    if (!own) {
-        void *handle;
-        own = (ck_state *)malloc(sizeof *own);
-        handle = own ? ck_handle_new(CK_STATES, own) : NULL;
-        if (!handle) {
-            free(own);
-            return ck_model_fail(model, "there is no room for more FMU states; free some");
-        }
-        *state = handle;
+static size_t liquid_size(int64_t cells) { return (size_t)cells * sizeof(double); }
+
+static size_t size_of(int64_t cells) { return sizeof(ck_state) + liquid_size(cells); }
+
+/* A state the host may keep: its own if it has one of this size, else a new one. */
+static ck_saved *place_for(ck_model *model, void **state) {
+    ck_saved *own = (ck_saved *)ck_handle_content(CK_STATES, *state);
+    int64_t cells = model->grid.n;
+    void *handle;
+    if (own && own->cells == cells) return own;
+    own = (ck_saved *)malloc(sizeof *own + liquid_size(cells));
+    handle = own ? ck_handle_new(CK_STATES, own) : NULL;
+    if (!handle) {
+        free(own);
+        ck_model_fail(model, "there is no room for more FMU states; free some");
+        return NULL;
     }
-    memcpy(own, content, sizeof *own);
+    free(ck_handle_free(CK_STATES, *state)); /* one of another FMU */
+    *state = handle;
+    own->cells = cells;
+    return own;
+}
+
+static double *liquid_of(const ck_saved *saved) { return (double *)(saved + 1); }
+
+int ck_saved_take(ck_model *model, void **state) {
+    const ck_grid_film *grid = &model->grid;
+    ck_saved *own;
+    if (!ck_is_place(state))
+        return ck_model_fail(model, "getFMUstate: give the address of a state; reset the FMU");
+    own = place_for(model, state);
+    if (!own) return CK_ERROR;
+    own->state = model->state;
+    if (grid->n) memcpy(liquid_of(own), grid->liquid, liquid_size(grid->n));
     return CK_OK;
 }
 
-int ck_saved_take(ck_model *model, void **state) {
-    if (!ck_is_place(state))
-        return ck_model_fail(model, "getFMUstate: give the address of a state; reset the FMU");
-    return keep(model, &model->state, state);
-}
-
 int ck_saved_restore(ck_model *model, const void *state) {
-    const ck_state *content = (const ck_state *)ck_handle_content(CK_STATES, state);
-    return content ? ck_model_restore(model, content) : ck_model_fail(model, NO_STATE);
+    const ck_saved *content = (const ck_saved *)ck_handle_content(CK_STATES, state);
+    if (!content) return ck_model_fail(model, NO_STATE);
+    return ck_model_restore(model, &content->state,
+                            content->cells == model->grid.n ? liquid_of(content) : NULL);
 }
 
 int ck_saved_free(void **state) {
@@ -495,35 +545,43 @@ int ck_saved_free(void **state) {
 }
 
 int ck_saved_size(ck_model *model, const void *state, size_t *size) {
-    if (!size || !ck_handle_content(CK_STATES, state)) return ck_model_fail(model, NO_STATE);
-    *size = SIZE;
+    const ck_saved *content = (const ck_saved *)ck_handle_content(CK_STATES, state);
+    if (!size || !content) return ck_model_fail(model, NO_STATE);
+    *size = HEAD + size_of(content->cells);
     return CK_OK;
 }
 
 int ck_saved_write(ck_model *model, const void *state, void *bytes, size_t size) {
-    const ck_state *content = (const ck_state *)ck_handle_content(CK_STATES, state);
+    const ck_saved *content = (const ck_saved *)ck_handle_content(CK_STATES, state);
     char *to = (char *)bytes;
     uint64_t sum;
     if (!content || !to) return ck_model_fail(model, NO_STATE);
-    if (size < SIZE) return ck_model_fail(model, "serializeFMUstate: there is too little room");
-    sum = ck_checksum(content, sizeof *content);
+    if (size < HEAD + size_of(content->cells))
+        return ck_model_fail(model, "serializeFMUstate: there is too little room");
+    memcpy(to + HEAD, &content->state, sizeof content->state);
+    memcpy(to + HEAD + sizeof content->state, liquid_of(content), liquid_size(content->cells));
+    sum = ck_checksum(to + HEAD, size_of(content->cells));
     memcpy(to, "CKSTATE1", 8);
     memcpy(to + 8, &sum, 8);
-    memcpy(to + HEAD, content, sizeof *content);
     return CK_OK;
 }
 
 int ck_saved_read(ck_model *model, const void *bytes, size_t size, void **state) {
     const char *from = (const char *)bytes;
-    ck_state content;
+    size_t cells = (size_t)model->grid.n;
+    ck_saved *own;
     uint64_t sum;
-    if (!from || !ck_is_place(state) || size < SIZE || memcmp(from, "CKSTATE1", 8) != 0)
+    if (!from || !ck_is_place(state) || size < HEAD + size_of((int64_t)cells) ||
+        memcmp(from, "CKSTATE1", 8) != 0)
         return ck_model_fail(model, "deSerializeFMUstate: these are no bytes of an FMU state; give those that "
                                     "serializeFMUstate wrote, unchanged");
     memcpy(&sum, from + 8, 8);
-    memcpy(&content, from + HEAD, sizeof content);
-    if (sum != ck_checksum(&content, sizeof content))
+    if (sum != ck_checksum(from + HEAD, size_of((int64_t)cells)))
         return ck_model_fail(model, "deSerializeFMUstate: the bytes were changed; give those that "
                                     "serializeFMUstate wrote");
-    return keep(model, &content, state);
+    own = place_for(model, state);
+    if (!own) return CK_ERROR;
+    memcpy(&own->state, from + HEAD, sizeof own->state);
+    memcpy(liquid_of(own), from + HEAD + sizeof own->state, liquid_size((int64_t)cells));
+    return CK_OK;
 }

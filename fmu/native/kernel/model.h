@@ -13,6 +13,7 @@
 #define CK_MODEL_H
 
 #include "drive.h"
+#include "grid.h"
 #include "motion.h"
 
 #include <stdint.h>
@@ -87,6 +88,7 @@ typedef void (*ck_say)(void *host, int status, const char *category, const char 
 typedef struct {
     ck_data data;
     ck_scene scene; /* that of the data with the parameters in */
+    ck_grid_film grid; /* of a film with one, and the liquid on it, which is part of the state */
     ck_drive drive; /* the parameters of a drive */
     ck_state state;
     ck_say say;
@@ -124,7 +126,7 @@ int ck_model_setup(ck_model *model, double start_time, const double *stop_time,
                    const double *tolerance);
 int ck_model_initialize(ck_model *model);
 int ck_model_step(ck_model *model, double time, double step);
-int ck_model_restore(ck_model *model, const ck_state *state);
+int ck_model_restore(ck_model *model, const ck_state *state, const double *liquid);
 
 /* States of the host: taken, restored, freed, and as bytes. */
 int ck_saved_take(ck_model *model, void **state);

@@ -135,7 +135,7 @@ static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion
     p->acting = acting;
     p->pull = *pull;
     p->mass = scene->mass, p->spring = scene->stiffness, p->rest = scene->initial_gap;
-    p->rtol = scene->rtol;
+    p->rtol = p->cavity ? ck_time_rtol(acting->law, scene->rtol) : scene->rtol;
     p->begin.time = state->time, p->begin.gap = state->gap, p->begin.speed = state->speed;
     p->size = fabs(drive) + fabs(first->fixed) + fabs(spring) + 1e-300;
     p->delivered = state->applied_impulse + scene->mass * fabs(state->speed);
@@ -441,17 +441,18 @@ static int cut_at_turn(const ck_problem *p, ck_step *taken, double *length) {
     return 1;
 }
 
-/* Keep what the cavity is after a step, and after the event at its end. */
-static void keep_cavity(const ck_problem *p, const ck_step *taken, int turn, ck_motion *state) {
+/* Keep what the cavity is after a step, and after the event at its end; 0 if it is not known. */
+static int keep_cavity(const ck_problem *p, const ck_step *taken, int turn, ck_motion *state) {
     if (p->cavity) {
         double gaps[3];
         int i;
         for (i = 0; i < 3; i++) gaps[i] = taken->stages[i].gap;
-        ck_cavity_step(&state->cavity, &taken->hollow, p->begin.gap, gaps);
+        if (!ck_cavity_step(p->acting->law, &state->cavity, &taken->hollow, p->begin.gap, gaps)) return 0;
     }
     if (turn)
         ck_cavity_event(p->acting->law, &state->cavity,
                         (ck_place){taken->stages[2].gap, taken->stages[2].speed});
+    return 1;
 }
 
 /* Take one internal step, shortened to the first event inside it. */
@@ -490,7 +491,7 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
         if (!(length >= ck_larger(1e-15 * fabs(state->time), NO_TIME)) || rejected > MOST_REJECTED)
             return CK_NO_STEP;
     }
-    state->cost += p.cavity ? CK_CAVITY_COST * rejected : rejected;
+    state->cost += p.cavity ? (int64_t)ck_cavity_cost(acting.law) * rejected : rejected;
     following = length * ck_smaller(8.0, 0.9 / sqrt(sqrt(ck_larger(error, 1e-12))));
     if (!rejected && length < state->step) following = ck_larger(following, state->step);
     /* The step is taken first, as if there were no event, and cut afterwards: forces and error estimate
@@ -504,7 +505,7 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
         state->known = 0;
         return CK_DONE;
     }
-    keep_cavity(&p, &taken, turn, state);
+    if (!keep_cavity(&p, &taken, turn, state)) return CK_NO_STEP;
     accumulate(&p, &first, &taken, length, state);
     /* After an event of the cavity its rates start anew: a first guess, not the step before it. */
     state->step = turn ? 0.0 : following;
@@ -520,7 +521,7 @@ int ck_internal_step(const ck_scene *scene, ck_motion *state, const ck_pull *pul
     if (state->in_contact) rest_once(scene, state, pull, end);
     else trouble = step_once(scene, state, pull, end);
     now = state->cavity.phase;
-    state->cost += was == CK_FULL && now == CK_FULL ? 1 : CK_CAVITY_COST;
+    state->cost += was == CK_FULL && now == CK_FULL ? 1 : ck_cavity_cost(&scene->laws[state->film]);
     if (was == CK_FULL && now != CK_FULL) state->inception_time = state->time, state->inceptions++;
     if (was != CK_FULL && now == CK_FULL && !state->broken)
         state->reformation_time = state->time, state->reformations++;

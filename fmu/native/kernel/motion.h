@@ -38,9 +38,6 @@ typedef struct {
 
 enum { CK_NONE = 0, CK_RUPTURE = 1, CK_REWETTING = 2 };
 enum { CK_DONE = 0, CK_NO_STEP = 1, CK_TOO_MANY_STEPS = 2 };
-/* Cost of a step of a cavitated film over that of a full one: 20 to 40 us against 1 to 2 us where
-   values are hostile. */
-enum { CK_CAVITY_COST = 20 };
 
 void ck_start(const ck_scene *scene, ck_motion *state); /* at time 0 */
 void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acting *acting);

@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from native_scenes import CC, HAS_CC, HERE, compile_c
+from native_scenes import CC, HAS_CC, HERE, compile_c, scene
 from selection import quick
 
 pytest.importorskip("pythonfmu")
@@ -23,6 +23,10 @@ from probe_fmus import (
     start_probe,
     unpack,
 )
+
+import contactkit as ck
+from contactkit.fmu.framework.toolchain import local
+from contactkit.fmu.native.build import build_native
 
 pytestmark = pytest.mark.slow
 
@@ -77,20 +81,40 @@ def test_no_misuse_touches_what_it_should_not(unpacked, checked, tmp_path, name)
     assert set(found) == set(CASES)
 
 
-@pytest.mark.parametrize("name", quick([n for n in NATIVES if n.endswith("2")], long=[0]))
-def test_spoilt_tables_are_refused_or_harmless(unpacked, checked, tmp_path, name):
-    """Numbers out of all range, tables cut short and wrong counts, under a checksum that fits."""
-    library, flags = checked(name), [f"-I{unpacked[name] / 'sources'}", *FLAGS]
-    words = [HERE / "native_fuzz.c", library]
-    program = compile_c(words, tmp_path / "fuzz", *flags, f"-Wl,-rpath,{library.parent}")
-    scratch = tmp_path / "spoilt"
+def spoil(library, resources, sources, folder, tries):
+    """Number of tables that were taken for good, of so many that were spoilt."""
+    flags = [f"-I{sources}", *FLAGS, f"-Wl,-rpath,{library.parent}"]
+    program = compile_c([HERE / "native_fuzz.c", library], folder / "fuzz", *flags)
+    scratch = folder / "spoilt"
     scratch.mkdir()
     done = subprocess.run(
-        [str(program), str(unpacked[name] / "resources"), str(scratch), "2000"],
+        [str(program), str(resources), str(scratch), str(tries)],
         capture_output=True,
         text=True,
         check=False,
         timeout=120,
     )
     assert done.returncode == 0, done.stderr[-2000:]
-    assert int(done.stdout) < 1500  # some changes are as good as the truth, most are not
+    return int(done.stdout)
+
+
+@pytest.mark.parametrize("name", quick([n for n in NATIVES if n.endswith("2")], long=[0]))
+def test_spoilt_tables_are_refused_or_harmless(unpacked, checked, tmp_path, name):
+    """Numbers out of all range, tables cut short and wrong counts, under a checksum that fits."""
+    folder = unpacked[name]
+    taken = spoil(checked(name), folder / "resources", folder / "sources", tmp_path, 2000)
+    assert taken < 1500  # some changes are as good as the truth, most are not
+
+
+def test_a_spoilt_grid_is_refused_or_harmless(unpacked, checked, tmp_path):
+    """A tilted face with a sealed hole, which cavitates at any pull."""
+    hole = ck.SealedHole(shape=ck.Disc(radius=6e-4, centre=(8e-4, 2e-4)), volume=1e-11)
+    plan = ck.Rectangle(length=4e-3, width=3e-3)
+    face = ck.Flat(planform=plan, holes=(hole,), tilt=(1e-3, 0.0))
+    effects = (ck.ViscousForce(), ck.TensionLimit(strength=1e-9))
+    given = scene(lower=ck.Flat(), upper=face, effects=effects, stiffness=0.0)
+    one = {"platforms": [local()], "compiler": "cc", "film_rtol": 0.1}
+    folder = unpack(build_native(given, tmp_path / "x.fmu", **one), tmp_path / "x")
+    library = checked("stiction-mass native 2")
+    taken = spoil(library, folder / "resources", folder / "sources", tmp_path, 500)
+    assert taken < 400

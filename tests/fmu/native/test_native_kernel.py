@@ -29,7 +29,6 @@ pytest.importorskip("fmpy")
 if not HAS_CC:
     pytest.skip("there is no C compiler", allow_module_level=True)
 
-import contactkit as ck
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.errors import ConvergenceError
 from contactkit.fmu.framework.instance import Instance
@@ -220,13 +219,6 @@ MOTIONS = {
 
 
 QUICK = ("rewetting", "sphere", "shear", "rough")
-
-
-def test_a_cavity_on_a_face_that_is_no_disc_has_no_native_form():
-    ring = SCENES["ring"]
-    cavitated = attrs.evolve(ring, effects=(*ring.effects, ck.TensionLimit()))
-    with pytest.raises(ck.PlanError, match=r"TensionLimit has no native form.*ck\.simulate"):
-        prepared_film(moving(cavitated, None))
 
 
 @pytest.mark.parametrize("name", quick(MOTIONS, *map([*MOTIONS].index, QUICK)))

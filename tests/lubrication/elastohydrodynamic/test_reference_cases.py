@@ -69,7 +69,7 @@ def phases_of(given, times):
     ]
 
 
-SLOW = {"tear_pull_beta0.1", "tear_cycle_beta0.1", "two_pressures_beta1"} | {
+SLOW = {"rupture_pull_beta0.1", "rupture_cycle_beta0.1", "two_pressures_beta1"} | {
     "contact_dwell_pull_beta0.1",
     "push_speed_beta0.01",
     "push_speed_beta10",
@@ -82,7 +82,7 @@ MOTIONS = [
     for name, case in CASES.items()
     if case["kind"] in ("coupled_motion", "coupled_bridge")
 ]
-TOLERANCE = {"contact_force": 3e-2, "void_volume": 2e-2, "tear_time": 1e-3}
+TOLERANCE = {"contact_force": 3e-2, "void_volume": 2e-2, "rupture_time": 1e-3}
 COLUMNS = {"pull_force": "pull", "rigid_gap": "gap"}
 
 
@@ -97,7 +97,7 @@ def test_motion(name):
     for quantity, expected in values.items():
         if quantity in ("time", "initial_force"):
             continue
-        if quantity == "tear_time":
+        if quantity == "rupture_time":
             assert found.rupture_time == pytest.approx(expected, rel=1e-3)
             continue
         curve = found.columns[COLUMNS.get(quantity, quantity)][at]

@@ -1,10 +1,14 @@
-/* A film between flats that cavitates: the cavity, what it remembers, its forces and events.
+/* A film that cavitates: the cavity, what it remembers, its forces and events (law.c).
 
-   As contactkit/lubrication/disc_cavity.py, rupture_history.py and contactkit/separation/cavity, in
-   the same order of operations. Squares of radii in place of radii; one of `menisci` equal films. */
+   A round cavity between discs as contactkit/lubrication/disc_cavity.py, rupture_history.py and
+   contactkit/separation/cavity, in the same order of operations, with squares of radii in place of
+   radii, of one of `menisci` equal films (disc.c, history.c, events.c). On any other face the liquid of
+   each cell of a grid (grid.h), which is remembered there: a film on a grid has one cavity. */
 
 #ifndef CK_CAVITY_H
 #define CK_CAVITY_H
+
+#include "description.h"
 
 #define CK_PI 3.14159265358979323846 /* ISO C has none */
 /* Pieces of the history that are kept: see rupture_history.py. Each state of an FMU copies them all. */
@@ -27,16 +31,20 @@ typedef struct {
 } ck_cavity;
 
 /* One film, its tensile strength while it is full, as a drop of pressure, 0 if it does not
-   cavitate, and that of the cavity. `volume` is HUGE_VAL where the rim is flooded. */
+   cavitate, and that of the cavity. `volume` is HUGE_VAL where the rim is flooded; `grid` is NULL of a
+   disc, and `damping` the force of the full film over viscosity and speed. */
 typedef struct {
     double menisci, rim_square, volume, viscosity, strength, drop;
+    struct ck_grid_film *grid;
+    const ck_table *damping;
 } ck_cavity_law;
 
 typedef struct {
     double gap, speed;
 } ck_place;
 
-/* Where the edge is; growth of the void with its slope, and what flows over the edge. */
+/* Where the edge is; growth of the void with its slope, and what flows over the edge. On a grid `edge` is
+   the area of the cavity over pi, and `rim` the gap that the liquid is of, 0 where it fills any. */
 typedef struct {
     double fraction, edge, rim, growth, by_void, returns;
 } ck_spot;
@@ -46,12 +54,13 @@ typedef struct {
     double force, by_gap, by_speed;
 } ck_held;
 
-/* Voids, edges and forces at the stages of a step; error of the last void over the film's volume. */
+/* Voids, edges and forces at the stages of a step, and its length; error of the last void over the
+   film's volume. */
 typedef struct {
     double voids[3];
     ck_spot spots[3];
     ck_held held[3];
-    double error;
+    double error, length;
 } ck_hollow;
 
 /* Numbers of Radau IIA with three stages (step.c). */
@@ -68,24 +77,41 @@ void ck_history_add(ck_cavity *cavity, const ck_rupture_piece *piece);
 void ck_history_along(ck_rupture_piece *piece, double before, const double squares[4],
                    const double gaps[4]);
 
-/* Edge and forces (cavity.c). */
-double ck_rim(const ck_cavity_law *law, double gap, double hollow, double *by_void);
+/* A film that cavitates, of any face (law.c). `solved` is NULL for a film that is full. */
 double ck_tension_at(const ck_cavity_law *law, double gap, double speed, double hollow);
-double ck_receding_edge(double sigma);
+int ck_is_inception(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at);
+double ck_time_rtol(const ck_cavity_law *law, double rtol); /* of a step with a cavity */
+int ck_cavity_cost(const ck_cavity_law *law); /* of one, in steps of a full film */
 void ck_spot_at(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at, double hollow,
+                ck_spot *spot);
+/* Where the edge stays that a cavity has at a gap; of a full film where it would open at a place. */
+void ck_spot_of(const ck_cavity_law *law, const ck_cavity *cavity, double gap, ck_place at,
                 ck_spot *spot);
 void ck_held_at(const ck_cavity_law *law, const ck_spot *spot, ck_place at, ck_held *held);
 int ck_hollow_solve(const ck_cavity_law *law, const ck_cavity *cavity, ck_place begin, double dt,
                     const ck_place at[3], ck_hollow *found); /* 0 if a shorter step may do */
-
-/* Events (events.c). `solved` is NULL for a film that is full. */
-int ck_is_inception(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at);
 void ck_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck_hollow *solved,
                      ck_place begin, const ck_place at[3], double *behind, double *ahead);
-void ck_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap,
-                    const double gaps[3]);
+int ck_cavity_step(const ck_cavity_law *law, ck_cavity *cavity, const ck_hollow *solved,
+                   double begin_gap, const double gaps[3]); /* 0 if there is none */
 void ck_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at);
 void ck_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at);
+
+/* The same between discs (disc.c, events.c). */
+double ck_disc_rim(const ck_cavity_law *law, double gap, double hollow, double *by_void);
+double ck_disc_tension_at(const ck_cavity_law *law, double gap, double speed, double hollow);
+double ck_receding_edge(double sigma);
+void ck_disc_spot_at(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at, double hollow,
+                     ck_spot *spot);
+void ck_disc_held_at(const ck_cavity_law *law, const ck_spot *spot, ck_place at, ck_held *held);
+int ck_disc_hollow_solve(const ck_cavity_law *law, const ck_cavity *cavity, ck_place begin, double dt,
+                         const ck_place at[3], ck_hollow *found);
+void ck_disc_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck_hollow *solved,
+                          const ck_place at[3], double *behind, double *ahead);
+void ck_disc_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap,
+                         const double gaps[3]);
+void ck_disc_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at);
+void ck_disc_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at);
 
 /* A step of some length, tried: keeps it and gives by how much it ends beyond an event; 0 if there is
    no such step, and the one before is kept. */
@@ -99,6 +125,7 @@ typedef struct {
     const ck_cavity_law *law;
     ck_cavity *cavity;
     double first, speed, time, end, rtol, planned;
+    int tries; /* steps that were tried */
 } ck_path;
 
 enum { CK_PATH_END = 0, CK_PATH_STEP = 1, CK_PATH_LOST = 2 };

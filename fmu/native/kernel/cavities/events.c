@@ -1,4 +1,4 @@
-/* Events of a cavity: its inception, the turns of its edge, and the film that is full again. As
+/* Events of a round cavity: its inception, the turns of its edge, and the film that is full again. As
    contactkit/separation/cavity/events.py, and numerics/events.py for the step that ends at one. */
 
 #include "cavity.h"
@@ -19,13 +19,9 @@
 #define QUICK 0.01
 #define MOST_SECANTS 3
 
-int ck_is_inception(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at) {
-    return cavity->phase == CK_FULL && ck_tension_at(law, at.gap, at.speed, 0.0) >= law->strength;
-}
-
 /* Void up to which a film counts as full. */
 static double nothing(const ck_cavity_law *law, const ck_cavity *cavity, double gap) {
-    double ignored, rim = ck_rim(law, gap, cavity->hollow, &ignored);
+    double ignored, rim = ck_disc_rim(law, gap, cavity->hollow, &ignored);
     double film = CK_PI * rim * gap;
     return (cavity->largest < SHALLOW * film ? NOTHING : REFORMED) * film;
 }
@@ -37,10 +33,10 @@ static void constant_piece(ck_rupture_piece *piece, double low, double high, dou
 
 /* The liquid cavitates: from its strength to its cavity, at once. */
 static void inception(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
-    double ignored, rim = ck_rim(law, at.gap, 0.0, &ignored);
+    double ignored, rim = ck_disc_rim(law, at.gap, 0.0, &ignored);
     memset(cavity, 0, sizeof *cavity);
     cavity->phase = CK_RECEDING;
-    cavity->fraction = ck_receding_edge(ck_tension_at(law, at.gap, at.speed, 0.0) / law->drop);
+    cavity->fraction = ck_receding_edge(ck_disc_tension_at(law, at.gap, at.speed, 0.0) / law->drop);
     constant_piece(&cavity->history[0], 0.0, cavity->fraction * rim, at.gap, 0.0);
     cavity->count = 1;
 }
@@ -51,23 +47,12 @@ static void squares_of(const ck_cavity *cavity, const ck_hollow *solved, double 
     for (i = 0; i < 3; i++) squares[i + 1] = solved->spots[i].edge;
 }
 
-/* Distance beyond the next event at the start of a step and at its end; below zero before it. */
-void ck_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck_hollow *solved,
-                     ck_place begin, const ck_place at[3], double *behind, double *ahead) {
+/* Distance beyond the next event of a cavity at the start of a step and at its end; below zero before it. */
+void ck_disc_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck_hollow *solved,
+                          const ck_place at[3], double *behind, double *ahead) {
     const double none[4] = {0.0, 0.0, 0.0, 0.0};
     const ck_spot *last;
     double left, size, rupture_gap, end;
-    int i;
-    if (!solved) {
-        double highest = -HUGE_VAL;
-        for (i = 0; i < 3; i++) {
-            double one = ck_tension_at(law, at[i].gap, at[i].speed, 0.0);
-            if (one > highest) highest = one;
-        }
-        *behind = ck_tension_at(law, begin.gap, begin.speed, 0.0) / law->strength - 1.0;
-        *ahead = highest / law->strength - 1.0;
-        return;
-    }
     if (cavity->phase == CK_RECEDING) {
         ck_rupture_piece piece;
         double squares[4], first, final;
@@ -94,7 +79,7 @@ void ck_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, const ck
 }
 
 /* Cavity at the end of a step. */
-void ck_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap,
+void ck_disc_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap,
                     const double gaps[3]) {
     if (cavity->phase == CK_RECEDING) {
         double squares[4], all[4] = {begin_gap, gaps[0], gaps[1], gaps[2]};
@@ -108,7 +93,7 @@ void ck_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap
 }
 
 /* Cavity after the event at the end of a step. */
-void ck_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
+void ck_disc_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
     if (cavity->phase == CK_FULL) {
         inception(law, cavity, at);
     } else if (cavity->phase == CK_RECEDING) {
@@ -123,7 +108,7 @@ void ck_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
 }
 
 /* Cavity after the speed has jumped. */
-void ck_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
+void ck_disc_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
     double ignored, rim, fraction, here;
     int recedes = cavity->phase == CK_RECEDING;
     ck_rupture_piece jump;
@@ -131,8 +116,8 @@ void ck_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
         if (ck_is_inception(law, cavity, at)) inception(law, cavity, at);
         return;
     }
-    rim = ck_rim(law, at.gap, cavity->hollow, &ignored);
-    fraction = ck_receding_edge(ck_tension_at(law, at.gap, at.speed, cavity->hollow) / law->drop);
+    rim = ck_disc_rim(law, at.gap, cavity->hollow, &ignored);
+    fraction = ck_receding_edge(ck_disc_tension_at(law, at.gap, at.speed, cavity->hollow) / law->drop);
     here = recedes ? ck_history_outermost(cavity)
                    : ck_history_edge(cavity, at.gap, cavity->hollow, &ignored);
     if (fraction * rim > here * (1.0 + SAME)) {
@@ -141,7 +126,7 @@ void ck_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
         ck_history_add(cavity, &jump);
         cavity->phase = CK_RECEDING, cavity->fraction = fraction;
     } else if (recedes && fraction * rim < here * (1.0 - SAME)) {
-        ck_cavity_event(law, cavity, at);
+        ck_disc_cavity_event(law, cavity, at);
     }
 }
 

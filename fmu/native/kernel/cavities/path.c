@@ -52,15 +52,16 @@ void ck_path_begin(ck_path *path, const ck_cavity_law *law, ck_cavity *cavity, c
                    double end, double rtol, double step) {
     path->law = law, path->cavity = cavity;
     path->first = at.gap, path->speed = at.speed;
-    path->time = 0.0, path->end = end, path->rtol = rtol;
+    path->tries = 0, path->time = 0.0, path->end = end, path->rtol = ck_time_rtol(law, rtol);
     path->planned = step > 0.0 ? step : FIRST * end;
     ck_cavity_jump(law, cavity, at);
 }
 
 /* Longest step that meets the tolerance, and its error over it; 0 if there is none. */
-static double accepted(const ck_path *path, attempt *one, double length, double *error) {
+static double accepted(ck_path *path, attempt *one, double length, double *error) {
     int i, whole = path->cavity->phase == CK_FULL;
     for (i = 0; i < 80; i++) {
+        path->tries++;
         *error = HUGE_VAL;
         if (go(one, length)) *error = whole ? 0.0 : one->hollow.error / path->rtol;
         if (*error <= 1.0) return length;
@@ -102,7 +103,8 @@ int ck_path_next(ck_path *path, double *impulse, int *full) {
                 gaps[i] = one.at[i].gap;
                 *impulse += length * ck_weights[i] * one.hollow.held[i].force;
             }
-            ck_cavity_step(path->cavity, &one.hollow, one.begin.gap, gaps);
+            if (!ck_cavity_step(path->law, path->cavity, &one.hollow, one.begin.gap, gaps))
+                return CK_PATH_LOST;
         }
         path->time = length >= left * (1.0 - 1e-14) ? path->end : path->time + length;
     }

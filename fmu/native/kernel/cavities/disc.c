@@ -1,4 +1,4 @@
-/* Edge, force and growth of a cavity, and its void at the stages of a step. See disc_cavity.py and
+/* Edge, force and growth of a round cavity, and its void at the stages of a step. See disc_cavity.py and
    separation/cavity/stages.py for the equations. */
 
 #include "cavity.h"
@@ -20,16 +20,16 @@ static double conductance(const ck_cavity_law *law, double gap) {
 }
 
 /* Square of the radius of the film, and its slope: as far as liquid and void fill the gap. */
-double ck_rim(const ck_cavity_law *law, double gap, double hollow, double *by_void) {
+double ck_disc_rim(const ck_cavity_law *law, double gap, double hollow, double *by_void) {
     double reach = CK_PI * gap, free = (law->volume + hollow) / reach;
     *by_void = free < law->rim_square ? 1.0 / reach : 0.0;
     return free < law->rim_square ? free : law->rim_square;
 }
 
 /* Tension in the centre of the full film. */
-double ck_tension_at(const ck_cavity_law *law, double gap, double speed, double hollow) {
+double ck_disc_tension_at(const ck_cavity_law *law, double gap, double speed, double hollow) {
     double ignored;
-    return 0.25 * speed * ck_rim(law, gap, hollow, &ignored) / conductance(law, gap);
+    return 0.25 * speed * ck_disc_rim(law, gap, hollow, &ignored) / conductance(law, gap);
 }
 
 /* 1 - rho + rho ln(rho) of x = 1 - rho, without cancellation. */
@@ -93,9 +93,9 @@ static double ring(double rho, double rim, double k, double drop, double speed, 
 }
 
 /* Edge of the cavity at a gap, a speed and a void, in the phase it is in. */
-void ck_spot_at(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at, double hollow,
+void ck_disc_spot_at(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at, double hollow,
                 ck_spot *spot) {
-    double rim_by_void, rim = ck_rim(law, at.gap, hollow, &rim_by_void), tau = 2.0 * CK_PI;
+    double rim_by_void, rim = ck_disc_rim(law, at.gap, hollow, &rim_by_void), tau = 2.0 * CK_PI;
     double k = conductance(law, at.gap), speed = at.speed, edge, rupture_gap;
     double l, c, by_edge, by_rim, deeper;
     spot->rim = rim;
@@ -120,7 +120,7 @@ void ck_spot_at(const ck_cavity_law *law, const ck_cavity *cavity, ck_place at, 
     spot->returns = tau * (0.5 * speed * edge + c);
 }
 
-void ck_held_at(const ck_cavity_law *law, const ck_spot *spot, ck_place at, ck_held *held) {
+void ck_disc_held_at(const ck_cavity_law *law, const ck_spot *spot, ck_place at, ck_held *held) {
     double n = law->menisci, by_speed;
     held->force = n * ring(spot->fraction, spot->rim, conductance(law, at.gap), law->drop, at.speed,
                            &by_speed);
@@ -165,12 +165,12 @@ static double error_of(double first, double dt, const double voids[3], const ck_
 }
 
 /* Voids at the stages of a step, with the edges and forces there. */
-int ck_hollow_solve(const ck_cavity_law *law, const ck_cavity *cavity, ck_place begin, double dt,
+int ck_disc_hollow_solve(const ck_cavity_law *law, const ck_cavity *cavity, ck_place begin, double dt,
                     const ck_place at[3], ck_hollow *found) {
     double first = cavity->hollow, scale, change[3], *voids = found->voids;
     ck_spot start;
     int i, iteration;
-    ck_spot_at(law, cavity, begin, first, &start);
+    ck_disc_spot_at(law, cavity, begin, first, &start);
     scale = CK_PI * start.rim * begin.gap;
     for (i = 0; i < 3; i++) {
         voids[i] = first + CK_PI * start.edge * (at[i].gap - begin.gap);
@@ -179,7 +179,7 @@ int ck_hollow_solve(const ck_cavity_law *law, const ck_cavity *cavity, ck_place 
     for (iteration = 0;; iteration++) {
         double most = 0.0;
         if (iteration == MOST_ITERATIONS) return 0;
-        for (i = 0; i < 3; i++) ck_spot_at(law, cavity, at[i], voids[i], &found->spots[i]);
+        for (i = 0; i < 3; i++) ck_disc_spot_at(law, cavity, at[i], voids[i], &found->spots[i]);
         if (!newton(first, dt, voids, found->spots, change)) return 0;
         for (i = 0; i < 3; i++) {
             voids[i] -= change[i];
@@ -187,7 +187,7 @@ int ck_hollow_solve(const ck_cavity_law *law, const ck_cavity *cavity, ck_place 
         }
         if (most <= ENOUGH * scale) break;
     }
-    for (i = 0; i < 3; i++) ck_held_at(law, &found->spots[i], at[i], &found->held[i]);
+    for (i = 0; i < 3; i++) ck_disc_held_at(law, &found->spots[i], at[i], &found->held[i]);
     found->error = error_of(first, dt, voids, &start) / scale;
     return 1;
 }
