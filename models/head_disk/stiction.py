@@ -60,7 +60,7 @@ def landing_bump(disk: ContactScene) -> SeparationScene:
     if below is None or slider is None or water is None:
         raise PlanError("landing_bump needs two solids and interface.meniscus: the liquid")
     layers = below.layers
-    solid = max(layers, key=lambda one: one.thickness).material if layers else below.substrate
+    solid = max(layers, key=lambda one: one.thickness).material if layers else below.materials[-1]
     meniscus = Meniscus(
         liquid=water.liquid,
         relative_humidity=_HUMIDITY,
@@ -97,7 +97,7 @@ def bump_stiction(
 
 
 def unanswered(disk: ContactScene) -> str:
-    """Why the rough disk itself has no stiction over rest: the refusal of the engine."""
+    """Refusal of the engine to have stiction of the rough disk itself, in words."""
     bump = landing_bump(disk)
     rough = evolve(
         bump,

@@ -133,9 +133,10 @@ def refuse_fmu(scene: SeparationScene) -> None:
     if scene.effect(ElasticBodies) is None:
         return
     loading = scene.loading
-    is_input = isinstance(loading, ImposedForce) and loading.force <= 0.0
-    if is_input:  # the pull is an input of an FMU, and may be 0 in its scene
-        scene = evolve(scene, loading=evolve(loading, force=1.0))
+    is_input = False
+    if isinstance(loading, ImposedForce) and loading.force <= 0.0:
+        # The pull is an input of an FMU, and may be 0 in its scene.
+        is_input, scene = True, evolve(scene, loading=evolve(loading, force=1.0))
     made = plan_deforming(scene)
     raise PlanError(f"no FMU holds ElasticBodies yet: {_cure(made, is_input)}")
 

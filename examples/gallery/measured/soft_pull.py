@@ -27,7 +27,7 @@ PAGE = Page(
     "first draft of this method, has it within its error of half a per cent. Rigid bodies in "
     "series with a spring have the beginning of it. The gap on the axis shrinks before it opens.",
     choices="R = 5 mm, h = 1 um, 0.1 Pa.s, 10 um/s, from rest, flooded to 8 sqrt(R h). Davis "
-    "et al. treat an impact, whose curves could not be read; the mapping of the parameters is exact.",
+    "et al. treat an impact, whose curves could not be read; the mapping is exact.",
     grid="24 to 48 rings, three meshes",
 )
 R, GAP, VISCOSITY, SPEED = 5e-3, 1e-6, 0.1, 1e-5

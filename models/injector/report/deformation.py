@@ -79,14 +79,13 @@ def _films(scene: InjectorScene, force: float) -> tuple[SeparationScene, Separat
         force=force, mass=given.mass, initial_gap=given.initial_gap, final_gap=given.final_gap
     )
     rigid = evolve(made, loading=pull, effects=tuple(film))
-    bodies = {
-        name: Body(surface=getattr(made.interface, name).surface, solid=_STEEL)
-        for name in ("lower", "upper")
-    }
-    soft = evolve(
-        rigid, interface=evolve(made.interface, **bodies), effects=(ElasticBodies(), *film)
+    interface = made.interface
+    faces = evolve(
+        interface,
+        lower=Body(surface=interface.lower.surface, solid=_STEEL),
+        upper=Body(surface=interface.upper.surface, solid=_STEEL),
     )
-    return soft, rigid
+    return evolve(rigid, interface=faces, effects=(ElasticBodies(), *film)), rigid
 
 
 def deformation_numbers(
