@@ -28,7 +28,9 @@ def fmu_start(scene: Scene, accuracy: Accuracy) -> FmuStart:
 @fmu_start.register
 def _(scene: SeparationScene, accuracy: Accuracy) -> FmuStart:
     from ..fmu.slaves.stiction_mass import mass_values
+    from ..separation.deforming.maxwell import refuse_fmu
 
+    refuse_fmu(scene)
     return FmuStart("stiction-mass", mass_values(scene))
 
 

@@ -1,6 +1,7 @@
 """Capillarity: Kelvin's equation, liquid bridges, menisci on rough surfaces.
 
 kelvin            Kelvin's equation and capillary condensation.
+vapour            Exchange of liquid between a meniscus and its vapour: time to dry up.
 exact             Exact axisymmetric bridges (Delaunay surfaces), their stability limits.
 arc               Bridges in the circular (toroidal) approximation.
 elastic_bridge    Bridge between a sphere and a flat that it draws in: closed forms, snap-in.

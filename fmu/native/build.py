@@ -18,6 +18,7 @@ from attrs import evolve
 from ..._version import __version__
 from ...errors import DescriptionError, PlanError
 from ...scene.scenes import ContactScene, SeparationScene
+from ...separation.deforming.maxwell import refuse_fmu
 from ...separation.effects.prepared import prepare_scene
 from ..contents.document import license_text
 from ..contents.packing import write_archive
@@ -107,6 +108,7 @@ def build_native(
         If the scene cannot be planned or tabulated, or a compiler is missing.
     """
     place = target(out, fmi)
+    refuse_fmu(scene)
     if model not in _MASS:
         raise DescriptionError("model", model, "be " + " or ".join(map(repr, _MASS)))
     given = dict(start or {})

@@ -1,1 +1,4 @@
-"""The head-disk interface: its scene."""
+"""The head-disk interface: its scene, and the stiction of a landing bump.
+
+stiction  Pull-off force of a bump over time of rest and humidity; why the rough disk has none.
+"""

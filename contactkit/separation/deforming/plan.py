@@ -68,6 +68,10 @@ COLUMNS: Mapping[str, Column] = MappingProxyType(
 # Widths of the pressure at the final gap up to which the film of a sphere without a rim is solved:
 # its force lacks 2/60^2, 6e-4 of that at the final gap.
 _WIDTHS = 60.0
+_SMALL_STRAIN = 0.1  # pressure over E* of linear elasticity; what a meniscus has from the start
+# Radius of Hertz' contact over the rim: beyond, the displacement at the rim is 0.22 of the approach
+# and the film there is no longer that of a flooded edge at ambient pressure.
+_INSIDE = 0.5
 # Thickness of a layer over the width of the pressure below which its matrix takes more than 10 s.
 _THINNEST = 0.02
 # Elements are in proportion to the fourth root of the error; 48 of a smooth film have 3e-4 of
@@ -97,6 +101,8 @@ class DeformingPlan(ScenePlan):
         At the start.
     laplace_pressure : float
         Suction of the meniscus at the start [Pa]; 0 of a flooded film.
+    volume : float
+        Liquid of the meniscus at the start [m3]; 0 of a flooded film.
     """
 
     known_effects: ClassVar[Registry[Any]] = SEPARATION_EFFECTS
@@ -108,6 +114,7 @@ class DeformingPlan(ScenePlan):
     modulus: float
     numbers: DecidingNumbers
     laplace_pressure: float
+    volume: float
 
     @property
     def elements(self) -> int:
@@ -126,6 +133,15 @@ class DeformingPlan(ScenePlan):
     def engine(self) -> str:
         """Name of the solver."""
         return "axisymmetric film on deforming bodies"
+
+    @property
+    def rest_number(self) -> float | None:
+        """Rest over the time of drainage to the cut-off [-]; None without the three of them."""
+        loading, film = self.scene.loading, self.film
+        if not isinstance(loading, PressAndPull) or math.isinf(film.radius) or not film.cutoff:
+            return None
+        args = loading.press, loading.rest, film.radius, self.modulus, film.viscosity
+        return rest_number(*args, film.cutoff)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -154,9 +170,14 @@ def plan_deforming(scene: SeparationScene, accuracy: Accuracy | None = None) -> 
     liquid = meniscus.liquid.at(scene.temperature)
     check_deforming(scene, liquid)
     modulus = _modulus(scene)
-    film, suction = _film(scene, liquid, modulus)
+    bridge, wetting = _bridge(scene, liquid, modulus)
+    film = _film(scene, liquid, bridge, wetting)
+    suction = 0.0 if bridge is None else bridge.laplace_pressure
     _check_layers(scene, film)
-    _check_rest(scene, film, modulus)
+    _check_load(scene, film, modulus)
+    _check_rest(scene, film, modulus, 0.0 if bridge is None else bridge.force)
+    if bridge is not None:
+        _check_fold(scene, film, modulus, bridge)
     found = deciding_numbers(
         film.radius,
         film.width,
@@ -168,7 +189,10 @@ def plan_deforming(scene: SeparationScene, accuracy: Accuracy | None = None) -> 
     if film.wetting is not None and suction > 0.0:
         height = film.wetting / suction
         found = found._replace(meniscus=film.wetting * film.rim / (modulus * height**2))
-    return DeformingPlan(scene, accuracy or Accuracy.standard, film, modulus, found, suction)
+    volume = 0.0 if bridge is None else bridge.volume
+    return DeformingPlan(
+        scene, accuracy or Accuracy.standard, film, modulus, found, suction, volume
+    )
 
 
 def characteristic_speed(scene: SeparationScene, film: SmoothGap) -> float:
@@ -199,18 +223,22 @@ def _compliance(scene: SeparationScene) -> Callable[[NDArray[np.float64]], NDArr
     return lambda nodes: rings.matrix(nodes, *solids)
 
 
-def _film(scene: SeparationScene, liquid: LiquidState, modulus: float) -> tuple[SmoothGap, float]:
-    """The film at the start, and its suction [Pa]."""
+def _film(
+    scene: SeparationScene,
+    liquid: LiquidState,
+    bridge: elastic_bridge.ElasticBridge | None,
+    wetting: float,
+) -> SmoothGap:
+    """The film at the start."""
     radius, gap = scene.interface.sphere_radius, scene.loading.initial_gap
     limit, contact = scene.effect(TensionLimit), scene.effect(SolidContact)
-    bridge, wetting = _bridge(scene, liquid, modulus)
     if bridge is not None:
         rim = bridge.rim_radius
     elif math.isfinite(scene.interface.rim_radius):
         rim = scene.interface.rim_radius
     else:
         rim = min(_WIDTHS * math.sqrt(radius * scene.loading.final_gap), radius)
-    film = SmoothGap(
+    return SmoothGap(
         radius=radius,
         rim=rim,
         gap=gap,
@@ -221,7 +249,6 @@ def _film(scene: SeparationScene, liquid: LiquidState, modulus: float) -> tuple[
         cutoff=0.0 if contact is None else contact.cutoff,
         wetting=None if bridge is None else wetting,
     )
-    return film, 0.0 if bridge is None else bridge.laplace_pressure
 
 
 def _bridge(
@@ -254,6 +281,13 @@ def _bridge(
                 f"no meniscus spans loading.initial_gap = {gap:g} m: at this pressure of the "
                 f"liquid one reaches {quantity_text(end.rigid_gap, 'm')}; start from a smaller gap"
             )
+    if found.laplace_pressure > _SMALL_STRAIN * modulus:
+        raise InfeasibleError(
+            f"the suction of the meniscus, {quantity_text(found.laplace_pressure, 'Pa')}, is "
+            f"{found.laplace_pressure / modulus:.3g} of E* = {quantity_text(modulus, 'Pa')}, and "
+            f"linear elasticity holds up to {_SMALL_STRAIN:g}; give stiffer bodies, or a larger "
+            "relative_humidity or volume"
+        )
     if found.centre_gap <= 0.0:
         raise InfeasibleError(
             f"the meniscus draws the bodies into contact at loading.initial_gap = {gap:g} m: "
@@ -280,18 +314,66 @@ def _check_layers(scene: SeparationScene, film: SmoothGap) -> None:
             )
 
 
-def _check_rest(scene: SeparationScene, film: SmoothGap, modulus: float) -> None:
-    """Refuse a rest after which smooth bodies would touch, without asperities that carry them."""
+def _check_load(scene: SeparationScene, film: SmoothGap, modulus: float) -> None:
+    """Refuse a load whose contact reaches the rim of a flooded film."""
     loading = scene.loading
-    if not isinstance(loading, PressAndPull) or film.cutoff or math.isinf(film.radius):
+    if not isinstance(loading, PressAndPull) or math.isinf(film.radius) or film.wetting is not None:
         return
-    args = loading.press, loading.rest, film.radius, modulus, film.viscosity
-    if rest_number(*args, _CONTINUUM) > 1.0:
+    contact = math.sqrt(film.radius * hertz_approach(loading.press, film.radius, modulus))
+    if contact > _INSIDE * film.rim:
+        raise PlanError(
+            f"loading.press = {quantity_text(loading.press, 'N')} presses the bodies together over "
+            f"a radius of {quantity_text(contact, 'm')}, more than {_INSIDE:g} of the film's, "
+            f"{quantity_text(film.rim, 'm')}; press less, or give larger faces or stiffer bodies"
+        )
+
+
+def _check_rest(scene: SeparationScene, film: SmoothGap, modulus: float, attraction: float) -> None:
+    """Refuse a rest after which smooth bodies would touch, without asperities that carry them.
+
+    They are pressed by the load and by the attraction of the meniscus at the start [N].
+    """
+    loading = scene.loading
+    if not isinstance(loading, PressAndPull) or film.cutoff:
+        return
+    load = loading.press + attraction
+    if math.isinf(film.radius):
+        until = 0.75 * math.pi * film.viscosity * film.rim**4 / (load * _CONTINUUM**2)
+        drained = loading.rest > until
+    else:
+        args = load, loading.rest, film.radius, modulus, film.viscosity
+        drained = rest_number(*args, _CONTINUUM) > 1.0
+    if drained:
         raise PlanError(
             f"loading.rest = {loading.rest:g} s drains the film to less than 2 nm, and nothing "
             "carries the bodies there: list SolidContact(cutoff=...), the gap at which their "
             "asperities touch [m]"
         )
+
+
+def _check_fold(
+    scene: SeparationScene,
+    film: SmoothGap,
+    modulus: float,
+    bridge: elastic_bridge.ElasticBridge,
+) -> None:
+    """Refuse a pull weaker than the meniscus: the bodies snap in instead of parting.
+
+    Its force grows as they come closer, so that no smaller gap holds them either.
+    """
+    loading, wetting = scene.loading, film.wetting or 0.0
+    if not isinstance(loading, ImposedForce) or loading.stiffness:
+        return
+    if loading.force > bridge.force:
+        return
+    end = elastic_bridge.snap_in_of_volume(bridge.volume, film.radius, modulus, wetting)
+    how = "snap in" if end.event == "fold" else "touch"
+    raise InfeasibleError(
+        f"loading.force = {quantity_text(loading.force, 'N')} never parts the bodies: the meniscus "
+        f"pulls by {quantity_text(bridge.force, 'N')} at loading.initial_gap = {film.gap:g} m, and "
+        f"they {how} at {quantity_text(end.bridge.rigid_gap, 'm')}, where it pulls by "
+        f"{quantity_text(end.bridge.force, 'N')}; pull harder, or take PressAndPull"
+    )
 
 
 def _notes(plan: DeformingPlan) -> Iterator[str]:
@@ -323,11 +405,9 @@ def _notes(plan: DeformingPlan) -> Iterator[str]:
 
 
 def _on_rest(plan: DeformingPlan) -> Iterator[str]:
-    loading, film = plan.scene.loading, plan.film
-    if not isinstance(loading, PressAndPull) or math.isinf(film.radius) or not film.cutoff:
+    rested = plan.rest_number
+    if rested is None:
         return
-    args = loading.press, loading.rest, film.radius, plan.modulus, film.viscosity
-    rested = rest_number(*args, film.cutoff)
     state = "the contact is drained" if rested > _FLOATS_BELOW else "the bodies still float in part"
     yield f"rest over the time of drainage to the cut-off = {rested:.3g}: {state}"
 

@@ -139,6 +139,7 @@ _UNITS = {
     "hysteresis_loss": "J",
     "largest_contact_force": "N",
     "largest_tension": "Pa",
+    "trapped_volume": "m3",
     "rupture_time": "s",
     "force_over_rigid": "-",
     "beta": "-",

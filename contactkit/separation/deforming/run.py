@@ -12,7 +12,7 @@ import numpy as np
 from ...errors import ConvergenceError
 from ...frozen import FrozenDict
 from ...lubrication.elastohydrodynamic.drive import Driven, Imposed
-from ...lubrication.elastohydrodynamic.motion import Motion, Phase, move
+from ...lubrication.elastohydrodynamic.motion import Motion, Phase, Profile, move
 from ...lubrication.elastohydrodynamic.step import StepFailedError
 from ...scene.loading import ImposedForce, ImposedSpeed, PressAndPull
 from ...units import quantity_text
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["pull_apart"]
 
 _POINTS = 40  # of the curve of an imposed speed, beside those that the steps add
+_SAME_GAP = 1e-9  # over the smallest: rings in contact differ by round-off
 _SHALLOW = 2.0  # times Hertz' approach, within which a pressed pair starts its pull
 
 
@@ -162,6 +163,7 @@ def _numbers(
         "hysteresis_loss": float(columns["dissipated_energy"][-1]),
         "largest_contact_force": float(columns["contact_force"].max()),
         "largest_tension": float(columns["largest_tension"].max()),
+        "trapped_volume": _trapped(motion.profiles[int(np.abs(time - pulled).argmin())]),
         "rupture_time": motion.rupture_time,
         "force_over_rigid": force / rigid if rigid > 0.0 else math.nan,
         "beta": plan.numbers.beta,
@@ -182,6 +184,18 @@ def _peak(time: Array, force: Array) -> tuple[float, float]:
     if peak > 1.02 * float(force[k]):
         return float(force[k]), float(time[k])
     return peak, float(time[k]) + at
+
+
+def _trapped(section: Profile) -> float:
+    """Liquid beyond the thickness of the thinnest ring within it [m3]: a dimple that pressing left.
+
+    0 where the film is thinnest on the axis, and where the contact has drained.
+    """
+    gap, radius = section.gap, section.radius
+    ring = int(np.flatnonzero(gap <= gap.min() * (1.0 + _SAME_GAP))[-1])
+    inside = section.liquid[: ring + 1] * gap[: ring + 1] - gap[ring]
+    areas = math.pi * np.diff(radius[: ring + 1] ** 2)
+    return float(np.maximum(0.5 * (inside[1:] + inside[:-1]), 0.0) @ areas)
 
 
 def _snap_off(columns: Mapping[str, Array], pulled: float) -> float:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...capillary import vapour
 from ...validity import ValidityNumber
 from .plan import DeformingPlan
 
@@ -24,6 +25,9 @@ _ATMOSPHERE = 101_325.0  # [Pa]
 # Error of three meshes over that of smooth films where an edge of a cavity or a contact moves by
 # elements: what is measured against finer meshes is a tenth of it.
 _AT_EDGES = 50.0
+_RESTED = 1.0  # times of drainage, below which solids carry less than the film does
+_KEPT = 0.1  # part of the meniscus that vapour may carry off
+_WATER = 0.018015  # [kg/mol], by which water is known
 _DECAYED = 4.0  # contact radii inside a rim, beyond which that does not change the contact
 
 
@@ -35,7 +39,8 @@ def ranges(
         *_of_the_film(plan, sections, numbers),
         *_of_the_bodies(plan, columns, sections),
         _of_the_error(plan, numbers),
-        *_of_the_amount(plan),
+        *_of_the_rest(plan),
+        *_of_the_amount(plan, float(columns["time"][-1])),
     )
 
 
@@ -61,7 +66,8 @@ def _of_the_film(
         name="tension over an atmosphere",
         value=numbers["largest_tension"] / _ATMOSPHERE,
         high=math.inf if math.isfinite(plan.film.cavity) else 1.0,
-        detail="beyond it most liquids rupture: list TensionLimit()",
+        detail="beyond it most liquids rupture"
+        + (": list TensionLimit()" if plan.film.wetting is None else ", which a rim cannot have"),
     )
 
 
@@ -103,10 +109,40 @@ def _of_the_error(plan: DeformingPlan, numbers: Mapping[str, float]) -> Validity
     )
 
 
-def _of_the_amount(plan: DeformingPlan) -> Iterator[ValidityNumber]:
-    if plan.scene.meniscus.has_pressure:
+def _of_the_rest(plan: DeformingPlan) -> Iterator[ValidityNumber]:
+    rested = plan.rest_number
+    if rested is not None:
         yield ValidityNumber(
-            name="time for vapour",
-            value=None,
-            detail="the volume at the start is kept, as if the pull were faster than vapour",
+            name="rest over the time of drainage",
+            value=rested,
+            low=_RESTED,
+            detail="below it the asperities carry only part of the load: stiction is that of this "
+            "rest, and of the gap at its start",
         )
+
+
+def _of_the_amount(plan: DeformingPlan, duration: float) -> Iterator[ValidityNumber]:
+    if not plan.scene.meniscus.has_pressure:
+        return
+    dries = _drying(plan)
+    detail = "the volume at the start is kept, as if the motion were faster than vapour"
+    if dries is None:
+        detail += "; that takes water and a relative_humidity"
+    yield ValidityNumber(
+        name="duration over the time in which vapour carries off the meniscus",
+        value=None if dries is None else duration / dries,
+        high=_KEPT,
+        detail=detail,
+        source="WMO-No. 8, 2008; Massman 1998",
+    )
+
+
+def _drying(plan: DeformingPlan) -> float | None:
+    """Time in which vapour carries off the meniscus [s]; None of a liquid other than water."""
+    meniscus, film, temperature = plan.scene.meniscus, plan.film, plan.scene.temperature
+    mass, humidity = meniscus.liquid.molar_mass, meniscus.relative_humidity
+    if mass is None or humidity is None or abs(mass - _WATER) > 1e-3 * _WATER:
+        return None
+    around = vapour.gap_conductance(film.rim, film.gap, film.radius)
+    molar = meniscus.liquid.molar_volume(temperature)
+    return vapour.drying_time(plan.volume, around, molar, temperature, humidity)

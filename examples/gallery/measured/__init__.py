@@ -12,5 +12,7 @@ sphere_adhesion   Adhesion of a sphere: JKR, DMT, Maugis, and the fits of Carpic
 rupture_work      Work of rupture with and without evaporation: de Boer.
 measured_bridges  Bridges measured by Pitois, which are not met, and why.
 film_forces       Films: Stefan, Reynolds, Brenner, Goldman.
+film_moduli       Film between bodies that deform, vibrating: Leroy and Charlaix.
+soft_pull         Soft spheres pulled off a film: Davis, Serayssol and Hinch.
 cold_oil          Walther's law for a cold oil, and what it does to the injector.
 """

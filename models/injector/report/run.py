@@ -19,6 +19,7 @@ from ..delays import delay, dry_delay
 from ..scene import InjectorScene
 from .cosimulation import InjectorRun, cosimulate_cases
 from .cycles import Cycle, cycles, largest_pull, run_error
+from .deformation import deformation_numbers
 from .end_stop import end_stop_numbers
 
 __all__ = ["cost", "fmu_start", "plan_text", "report", "run"]
@@ -110,7 +111,9 @@ def report(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path | None) 
         spread.append(_spread(run, [c.delay for c in found], scene))
         scalars |= _scalars(run, found, dry)
     impacts, numbers = end_stop_numbers(scene, runs, [run.name for run in runs])
-    lines += [*spread, *_what_decides(scene, runs), *impacts, *_validity(runs)]
+    softened, changes = deformation_numbers(scene, largest_pull(scene))
+    lines += [*spread, *_what_decides(scene, runs), *softened, *impacts, *_validity(runs)]
+    numbers |= changes
     text = "\n".join(lines)
     if out is None:
         return Report(scalars | numbers, text)

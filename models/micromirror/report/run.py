@@ -20,6 +20,7 @@ from ..release import Landing, Release, landing, release_curve
 from ..scene import MicromirrorScene
 from ..tip_film import condensate_validity, tip_law
 from .cosimulation import MirrorRun, cosimulate_flips, tip_start
+from .deformation import deformation_numbers
 from .landing_sites import landing_numbers
 
 __all__ = ["cost", "fmu_start", "plan_text", "report", "run", "run_errors"]
@@ -73,6 +74,7 @@ def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: 
     landed = landing(scene)
     free, error = run_errors(scene, run)
     landings, numbers = landing_numbers(scene, run)
+    softened, changes = deformation_numbers(scene, _held_states(run))
     lines = [
         f"{scene.name}: does it release?",
         *_landed_text(scene, landed),
@@ -82,6 +84,7 @@ def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: 
         *_verdict(scene, found),
         *_flips(scene, run, free, error),
         *landings,
+        *softened,
         *_validity(run, found),
     ]
     scalars: dict[str, tuple[Any, str]] = {
@@ -95,6 +98,7 @@ def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: 
         "coupling_error": (error, "-"),
         "seconds": (run.seconds, "s"),
         **numbers,
+        **changes,
     }
     for one in found:
         scalars |= _scalars(scene, one)
@@ -211,17 +215,24 @@ def _flips(scene: MicromirrorScene, run: MirrorRun, free: float, error: float) -
     ]
 
 
+def _held_states(run: MirrorRun) -> list[tuple[float, float]]:
+    """Gaps [m] and speeds [m/s] of the tips of the side + while a film spans their gap."""
+    held = run.coupled["state_plus"] == HELD
+    if not held.any():
+        return []
+    gaps = run.coupled["gap_plus"]
+    speeds = np.gradient(gaps, run.coupled["time"])
+    # Only while a film spans the gap has the film any validity to speak of.
+    law = run.plan.film.laws.get(MeniscusForce)
+    spans = held & (gaps < (law.end if law is not None else math.inf))
+    return list(zip(gaps[spans].tolist(), speeds[spans].tolist(), strict=True))
+
+
 def _validity(run: MirrorRun, found: Sequence[Release]) -> list[str]:
     """Say how far the models were inside their ranges."""
-    held = run.coupled["state_plus"] == HELD
     lines = []
-    if held.any():
-        gaps = run.coupled["gap_plus"]
-        speeds = np.gradient(gaps, run.coupled["time"])
-        # Only while a film spans the gap has the film any validity to speak of.
-        law = run.plan.film.laws.get(MeniscusForce)
-        spans = held & (gaps < (law.end if law is not None else math.inf))
-        pairs = list(zip(gaps[spans].tolist(), speeds[spans].tolist(), strict=True))
+    pairs = _held_states(run)
+    if pairs:
         warnings = [
             f"{n.name} {n.value:.2g} {'ok' if n.is_valid else 'OUT OF RANGE'}"
             for n in run.plan.validity(pairs)
