@@ -42,6 +42,7 @@ def test_the_spring_is_that_of_small_vibrations():
         assert series_stiffness(*args, 1e9) == pytest.approx(loss**2 / storage, rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("beta", "peak", "late"), [(1e-3, 4e-3, 1e-3), (HOLDS_TO, 2e-2, 1.2e-2)])
 def test_a_pull_is_right_to_what_it_states(beta, peak, late):
     modulus = 0.1 * SPEED * R**1.5 / (beta * GAP**2.5)
