@@ -14,7 +14,10 @@ from scipy.optimize import brentq
 
 import contactkit as ck
 
-pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning"),
+]
 
 TENSION = 0.072
 RADIUS, HEIGHT = 100e-9, 2e-9  # x_n0 and h0 of the source

@@ -12,6 +12,8 @@ from contactkit.capillary.exact.at_pressure import max_gap_at_pressure
 from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure, margin
 from contactkit.capillary.exact.stability import stability_limit
 
+pytestmark = pytest.mark.slow
+
 few = settings(max_examples=12)
 angles = st.floats(0.0, math.pi)
 fractions = st.floats(0.02, 0.97)

@@ -11,7 +11,10 @@ import pytest
 import contactkit as ck
 from contactkit.cli import main
 
-pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning"),
+]
 
 BRIDGE = """
 name = "oil between faces"

@@ -20,7 +20,10 @@ import contactkit as ck
 from contactkit.studies import run as study_run
 from contactkit.studies import stream
 
-pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning"),
+]
 
 OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
 GAPS, TIMES = "loading.initial_gap", "loading.time"

@@ -23,8 +23,8 @@ PAGE = Page(
     "rigid bodies, 6 pi eta R^2 v/h at once; where it is large the bodies follow the pull before "
     "the gap opens, and it opens in a short time.",
     verdict="Met: pulls of the same beta are the same though every property differs; the largest "
-    "force falls from that of rigid bodies to 0.16 of it at beta = 10, as a second program, the "
-    "first draft of this method, has it within its error of half a per cent. Rigid bodies in "
+    "force falls from that of rigid bodies to 0.16 of it at beta = 10, as the "
+    "first program of this method has it within its error of half a per cent. Rigid bodies in "
     "series with a spring have the beginning of it. The gap on the axis shrinks before it opens.",
     choices="R = 5 mm, h = 1 um, 0.1 Pa.s, 10 um/s, from rest, flooded to 8 sqrt(R h). Davis "
     "et al. treat an impact, whose curves could not be read; the mapping is exact.",
@@ -103,19 +103,19 @@ def draw(data: Data) -> plot.Figure:
     betas = data["betas"]
     for i, beta in enumerate(betas):
         look = plot.series(i, marker="", lw=1.3)
-        left.plot(data[f"time_{i}"], data[f"force_{i}"], **look, label=f"beta = {beta:g}")
+        left.plot(data[f"time_{i}"], data[f"force_{i}"], **look, label=rf"$\beta$ = {beta:g}")
         middle.plot(data[f"time_{i}"], data[f"centre_{i}"], **look)
     left.plot(data["time_0"], data["series_0"], "--", color="0.4", lw=0.9, label="spring in series")
-    left.set(xlabel="v t/h [-]", ylabel="force over 6 pi eta R^2 v/h [-]", xlim=(0.0, 12.0))
+    left.set(xlabel="$v t/h$ [-]", ylabel=r"force over $6 \pi \eta R^2 v/h$ [-]", xlim=(0.0, 12.0))
     left.legend(fontsize=8)
-    middle.set(xlabel="v t/h [-]", ylabel="gap on the axis over h [-]", xlim=(0.0, 12.0))
+    middle.set(xlabel="$v t/h$ [-]", ylabel="gap on the axis over h [-]", xlim=(0.0, 12.0))
     middle.set_ylim(0.5, 4.0)
     peaks = [float(data[f"peak_{i}"][0]) for i in range(len(betas))]
-    right.semilogx(list(DRAFTED), list(DRAFTED.values()), **plot.series(0, ls=""), label="draft")
+    right.semilogx(list(DRAFTED), list(DRAFTED.values()), **plot.series(0, ls=""), label="first program")
     right.semilogx(betas, peaks, **plot.series(1, marker=""), label="contactkit")
     series = [float(data[f"series_{i}"].max()) for i in range(len(betas))]
     right.semilogx(betas, series, "--", color="0.4", lw=0.9, label="spring in series")
-    right.set(xlabel="beta [-]", ylabel="largest force [-]", ylim=(0.0, 1.0))
+    right.set(xlabel=r"$\beta$ [-]", ylabel="largest force [-]", ylim=(0.0, 1.0))
     right.legend(fontsize=8)
     plot.letters((left, middle, right), ("force", "gap on the axis", "largest force"))
     return figure
@@ -142,7 +142,7 @@ def check(data: Data) -> list[Check]:
             f"{peaks[one]:.4f} and {float(data['other_peak'][0]):.4f} at beta = 1",
         ),
         Check(
-            "the largest force falls with beta, as the first draft has it to 1 %",
+            "the largest force falls with beta, as the first program has it to 1 %",
             bool(np.all(np.diff(peaks) < 0.0) and max(map(abs, off)) < 1e-2),
             ", ".join(f"{100 * one:+.2f}" for one in off) + " %",
         ),
@@ -170,7 +170,7 @@ def table(data: Data) -> Table:
         (beta, float(data[f"peak_{i}"][0]), DRAFTED[beta], float(data[f"series_{i}"].max()))
         for i, beta in enumerate(data["betas"].tolist())
     ]
-    return Table(("beta", "contactkit", "first draft", "spring in series"), rows)
+    return Table(("beta", "contactkit", "first program", "spring in series"), rows)
 
 
 if __name__ == "__main__":

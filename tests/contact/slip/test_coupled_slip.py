@@ -20,7 +20,7 @@ RADIUS = 1 * mm
 REST = (ck.TangentialStep(force=0.0),)
 HALF = (ck.TangentialStep(ratio=0.5, steps=2),)
 
-pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")]
 
 
 def pressed(nu=0.2, coefficient=0.2, force=1.0, grid=32, path=REST, **choices):

@@ -20,6 +20,8 @@ from contactkit.models.injector.monolithic import simulate
 from contactkit.models.injector.report.cosimulation import build_fmus
 from contactkit.separation.plan import plan
 
+pytestmark = pytest.mark.slow
+
 FMI3 = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="3.0" modelName="third" instantiationToken="{3}">
   <CoSimulation modelIdentifier="third"/>

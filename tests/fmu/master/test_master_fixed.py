@@ -11,6 +11,8 @@ from contactkit.errors import ConvergenceError, DescriptionError, InfeasibleErro
 from contactkit.fmu.master.couple import AdaptiveSteps, FixedSteps, Fmu, Mass, couple
 from contactkit.fmu.python import build as building
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def film(shelf):

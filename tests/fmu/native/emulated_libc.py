@@ -78,11 +78,6 @@ class LibC:
         self.cpu.mem_write(to, bytes([byte & 255]) * size)
         return to
 
-    def c_memcmp(self):
-        one, other, size = self.whole(), self.whole(), self.whole()
-        first, second = self.bytes_at(one, size), self.bytes_at(other, size)
-        return (first > second) - (first < second)
-
     def c_bzero(self):
         to, size = self.whole(), self.whole()
         self.cpu.mem_write(to, bytes(size))

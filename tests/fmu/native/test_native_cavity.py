@@ -20,6 +20,8 @@ from contactkit.fmu.native.build import build_native  # noqa: E402
 from contactkit.fmu.slaves.stiction_force import StictionForce  # noqa: E402
 from contactkit.fmu.slaves.stiction_mass import PORTS, StictionMass, scene_of  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 OK = 0
 ONE = {"platforms": [local()], "compiler": "cc"}
 MOTION = ("h", "v", "F", "J", "W", "F_peak", "t_release", "r_cav", "V_void")

@@ -33,6 +33,8 @@ from contactkit.fmu.native.faces import faces_of  # noqa: E402
 from contactkit.fmu.python.build import build, validate  # noqa: E402
 from contactkit.fmu.slaves.valve_drive import ValveDrive  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 ONE = {"platforms": [local()], "compiler": "cc"}
 OK, DISCARD, ERROR = 0, 2, 3
 RELEASE = 1.34218631e-3  # [s], of the injector at 20 degC, by models.monolithic

@@ -21,6 +21,8 @@ from contactkit.separation.motion.advance import advance
 from contactkit.separation.motion.state import Pull, outputs, start
 from contactkit.separation.plan import plan
 
+pytestmark = pytest.mark.slow
+
 OK, DISCARD = 0, 2
 RTOL = 3e-2  # of the film: 32 cells across, in Python and in C the same
 ONE = {"platforms": [local()], "compiler": "cc", "film_rtol": RTOL}

@@ -27,6 +27,8 @@ from contactkit.fmu.slaves.stiction_mass import MeniscusLaw, scene_of  # noqa: E
 from contactkit.separation.effects.base import FilmStatus, LimitKind  # noqa: E402
 from contactkit.separation.plan import plan  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 OK, DISCARD = 0, 2
 ONE = {"platforms": [local()], "compiler": "cc", "model": "stiction-force"}
 

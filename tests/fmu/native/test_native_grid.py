@@ -27,6 +27,8 @@ from contactkit.separation.effects.base import ForceLaw, SeparationForce
 from contactkit.separation.face.held_voids import HeldVoids
 from contactkit.separation.plan import plan
 
+pytestmark = pytest.mark.slow
+
 DROP = 1e5
 COARSE = attrs.evolve(FINE, film_rtol=3e-2)
 HOLE = ck.Disc(radius=4e-4, centre=(8e-4, 2e-4))

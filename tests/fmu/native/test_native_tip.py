@@ -25,6 +25,8 @@ from contactkit.fmu.python.build import build, validate
 from contactkit.fmu.slaves.tip_contact import PORTS, TipContact, TipLaw, TipStatus
 from contactkit.models.micromirror.report.cosimulation import couple_fmus, tip_start
 
+pytestmark = pytest.mark.slow
+
 ONE = {"platforms": [local()], "compiler": "cc"}
 OK, DISCARD = 0, 2
 STEP = 2e-8

@@ -24,7 +24,10 @@ from contactkit.fmu.python import build as building
 from contactkit.fmu.slaves.contact_stop import ContactStop
 from contactkit.fmu.slaves.valve_drive import drive_values
 
-pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning"),
+]
 
 OK, DISCARD = 0, 2
 STEP = 1e-6

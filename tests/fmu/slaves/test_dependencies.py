@@ -14,6 +14,8 @@ from contactkit.fmu.slaves.stiction_mass import StictionMass
 from contactkit.fmu.slaves.tip_contact import TipContact, TipLaw
 from contactkit.fmu.slaves.valve_drive import ValveDrive
 
+pytestmark = pytest.mark.slow
+
 DROP = {"V": 1.58e-10}
 LIMITS = DROP | {"dp_cav": 1e5, "tau_lim": 1e5}
 TIP = {"V": 1.3e-24, "profile": TipLaw.ARC}

@@ -19,6 +19,8 @@ from contactkit.separation.cavity.state import FULL
 from contactkit.separation.effects.base import LimitKind
 from contactkit.separation.plan import plan
 
+pytestmark = pytest.mark.slow
+
 OK, DISCARD = 0, 2
 
 

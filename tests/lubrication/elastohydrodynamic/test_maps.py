@@ -20,6 +20,8 @@ from contactkit.lubrication.elastohydrodynamic.step import StepFailedError
 from contactkit.lubrication.reynolds import solve as reynolds
 from contactkit.lubrication.reynolds.film import GridFilm
 
+pytestmark = pytest.mark.slow
+
 ROUGH, CONTACT = CASES["rough_sphere_pull"], CASES["rough_sphere_contact"]
 R, GAP, ETA, SPEED = 5e-3, 1e-6, 0.1, 1e-5
 SOFT = ROUGH["inputs"]["effective_modulus"]  # beta = 1

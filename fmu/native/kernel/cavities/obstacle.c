@@ -49,6 +49,14 @@ static void assemble(ck_grid_film *film, double gap) {
     memset(film->work, 0, (size_t)film->n * sizeof(double));
 }
 
+/* Not memcmp: compilers make a bcmp of it, which not every C library has. */
+static int is_same(const unsigned char *one, const unsigned char *other, size_t n) {
+    size_t i;
+    for (i = 0; i < n; i++)
+        if (one[i] != other[i]) return 0;
+    return 1;
+}
+
 /* Factor of the full cells: the one that is there, or in place of that which was used longest ago. */
 const ck_factor *ck_grid_factor(ck_grid_film *film, double gap, const unsigned char *full) {
     size_t n = (size_t)film->n;
@@ -57,7 +65,7 @@ const ck_factor *ck_grid_factor(ck_grid_film *film, double gap, const unsigned c
     assemble(film, gap);
     for (i = 0; i < CK_FACTORS; i++) {
         ck_factor *one = &film->factors[i];
-        if (one->used && (film->is_even || one->gap == gap) && memcmp(one->full, full, n) == 0) {
+        if (one->used && (film->is_even || one->gap == gap) && is_same(one->full, full, n)) {
             one->used = ++film->clock;
             return one;
         }
@@ -105,7 +113,7 @@ int ck_obstacle_solve(ck_grid_film *film, const ck_obstacle *p, unsigned char *f
                                    : film->voids[i] < -slack;
             if (p->may_fill && !p->may_fill[i]) film->new[i] = 0;
         }
-        if (memcmp(film->new, full, n) == 0) return 1;
+        if (is_same(film->new, full, n)) return 1;
         memcpy(full, film->new, n);
     }
     return 0;
