@@ -68,10 +68,13 @@ def test_every_registered_effect_has_its_entry_and_every_shipped_scene_its_effec
         assert one["sources"], name
 
 
+LONG = {*CONTACTS, ck.ElasticBodies, ck.SolidContact}  # seconds
+
+
 @pytest.mark.parametrize(
     "kind",
     [
-        pytest.param(kind, marks=[pytest.mark.slow] * (kind in CONTACTS), id=kind.__name__)
+        pytest.param(kind, marks=[pytest.mark.slow] * (kind in LONG), id=kind.__name__)
         for kind in ENTRIES
     ],
 )

@@ -103,6 +103,7 @@ def test_a_force_too_rough_for_a_table_is_named():
 
 
 @needs_cc
+@pytest.mark.slow
 @pytest.mark.parametrize("gamma", [0.0, 1e-6])
 def test_without_surface_tension_no_bridge_ends_the_film(gamma, tmp_path):
     """As in the Python FMU; the tables know where the bridge of the scene ends."""
