@@ -111,7 +111,9 @@ def draw(data: Data) -> plot.Figure:
     left.loglog(x, data["storage"], **plot.series(1, marker=""), label="G'")
     left.loglog(x, data["stiff"], "--", color="0.5", lw=0.9, label="G' of stiff bodies")
     left.axhline(1.0, color="0.5", lw=0.8)
-    left.set(xlabel="$D/D_c$ [-]", ylabel=r"modulus over $6 \pi \eta \omega R^2/D$ [-]", ylim=(1e-5, 5.0))
+    left.set(
+        xlabel="$D/D_c$ [-]", ylabel=r"modulus over $6 \pi \eta \omega R^2/D$ [-]", ylim=(1e-5, 5.0)
+    )
     left.legend(fontsize=8)
     phase = np.degrees(np.arctan2(data["loss"], data["storage"]))
     middle.semilogx(x, phase, **plot.series(0, marker=""))
@@ -121,7 +123,9 @@ def draw(data: Data) -> plot.Figure:
     for i, name in enumerate(("nu = 0.3", "nu = 0.5")):
         right.plot(data["parts"], data["layers"][i], **plot.series(i), label=name)
     right.axhline(1.0, color="0.5", lw=0.8)
-    right.set(xlabel=r"$t/\sqrt{R D}$ [-]", ylabel="G' over that of a thin layer [-]", xlim=(0.0, None))
+    right.set(
+        xlabel=r"$t/\sqrt{R D}$ [-]", ylabel="G' over that of a thin layer [-]", xlim=(0.0, None)
+    )
     right.legend(fontsize=8)
     plot.letters((left, middle, right), ("moduli", "phase", "thin layers"))
     return figure

@@ -111,7 +111,8 @@ def draw(data: Data) -> plot.Figure:
     middle.set(xlabel="$v t/h$ [-]", ylabel="gap on the axis over h [-]", xlim=(0.0, 12.0))
     middle.set_ylim(0.5, 4.0)
     peaks = [float(data[f"peak_{i}"][0]) for i in range(len(betas))]
-    right.semilogx(list(DRAFTED), list(DRAFTED.values()), **plot.series(0, ls=""), label="first program")
+    first = plot.series(0, ls="")
+    right.semilogx(list(DRAFTED), list(DRAFTED.values()), **first, label="first program")
     right.semilogx(betas, peaks, **plot.series(1, marker=""), label="contactkit")
     series = [float(data[f"series_{i}"].max()) for i in range(len(betas))]
     right.semilogx(betas, series, "--", color="0.4", lw=0.9, label="spring in series")
