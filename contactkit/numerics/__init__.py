@@ -14,5 +14,4 @@ lines           Points of curves between which straight lines are right.
 fixed_point     Fixed points of expensive maps: accelerated, evaluated no better than needed.
 blas            Linear algebra of small matrices on one thread.
 fft             Real two-dimensional transforms: scipy.fft always, ducc0 where it is installed.
-gmres           GMRES with a preconditioner from the right.
 """

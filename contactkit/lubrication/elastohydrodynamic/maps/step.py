@@ -16,9 +16,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse.linalg import LinearOperator, gmres
 
 from ....errors import ConvergenceError
-from ....numerics.gmres import gmres
 from ..drive import Driven, Imposed
 from ..step import StepFailedError
 from ..wet_gap import Sets
@@ -193,12 +193,10 @@ class _Newton:
 
     def _correct(self, rows: Array) -> None:
         inverse = self._needed_factors()
-        apply = self._product(inverse)
-        found = gmres(apply, -rows, inverse, _LINEAR, _MOST_LINEAR)
-        self.linear.append(found.n_iterations)
-        if not np.isfinite(found.x).all():
+        found = self._solved(self._product(inverse), rows, inverse)
+        if not np.isfinite(found).all():
             raise StepFailedError("singular")
-        pressure, total, moved = self._changes(found.x)
+        pressure, total, moved = self._changes(found)
         scale = 1.0
         if not self.wet.cutoff:
             change = moved + self.wet.displacement(total)
@@ -209,6 +207,25 @@ class _Newton:
         self.total = self.total + scale * total
         self.rigid_gap += scale * moved
         self._settle()
+
+    def _solved(self, apply: _Product, rows: Array, inverse: Preconditioner) -> Array:
+        """Correction by GMRES, preconditioned from the right: it minimises the rows themselves.
+
+        From the left, as scipy does it, their norm would be compared with one of another unit.
+        """
+        shape, norms = (rows.size, rows.size), list[float]()
+        solved, _ = gmres(
+            LinearOperator(shape, lambda y: apply(inverse(y.ravel())), dtype=np.float64),
+            -rows,
+            rtol=_LINEAR,
+            atol=0.0,
+            restart=_MOST_LINEAR,
+            maxiter=1,
+            callback=norms.append,
+            callback_type="pr_norm",
+        )
+        self.linear.append(len(norms))
+        return inverse(solved)
 
     def _changes(self, x: Array) -> tuple[Array, Array, float]:
         """Changes of film pressures, of the pressures on the bodies, and of the rigid gap."""
