@@ -1,9 +1,4 @@
-"""Wet gap in time: adaptive steps, and the rupture of a film that is stronger than a cavity.
-
-The liquid ruptures at a tension that may exceed that of a cavity. Until then no cavity opens; the
-instant is located, and from there on the pressure of the cavity is the floor, until the last void
-is filled again.
-"""
+"""Wet gap in time: adaptive steps by an embedded estimate of their error."""
 
 from __future__ import annotations
 
@@ -15,8 +10,8 @@ import numpy as np
 from attrs import frozen
 from numpy.typing import NDArray
 
-from ...numerics.roots import bracketed_root
 from ...numerics.step_size import StepSize
+from .progress import Progress
 from .step import METHODS, StepFailedError, Stepped, step
 from .wet_gap import Fields, Sets, WetGap
 
@@ -24,11 +19,7 @@ __all__ = ["Control", "State", "Track", "begun", "follow"]
 
 Array = NDArray[np.float64]
 
-_SHORTEST = 1e-10  # step over the whole span, below which there is none
-# Step after a rupture over that before it: pressures jump, so that no estimate holds there.
-_AFTER_JUMP = 1e-3
 _EXTRAPOLATED = 2.5  # growth of a step up to which the last one is extrapolated
-_RUPTURE = 1e-6  # where in a step the film ruptures, of its length
 
 
 @frozen
@@ -116,10 +107,7 @@ def follow(
     """
     run = _Run(gap, start, times, control or Control())
     run.every_step, run.until = every_step, until
-    for time in times[1:]:
-        run.go_to(time)
-        if run.is_over:
-            break
+    run.go_through(times[1:])
     return Track(run.kept, run.ruptures, run.n_steps, run.n_rejected, run.n_iterations)
 
 
@@ -129,57 +117,28 @@ def begun(gap: WetGap, fields: Fields, time: float = 0.0) -> State:
     return State(time, fields, Sets(none, fields.solid > 0.0))
 
 
-class _Run:
-    """Progress of a motion."""
+class _Run(Progress[State, Stepped]):
+    """Progress of a motion on rings."""
+
+    located = 1e-6
+    after_rupture = 1e-3  # no estimate holds where pressures jump
 
     def __init__(self, gap: WetGap, start: State, times: Sequence[float], control: Control) -> None:
-        self.gap, self.control = gap, control
-        self.state = start
-        self.every_step, self.until = False, math.inf
-        self.kept = [self.state]
-        self.ruptures: list[float] = []
+        super().__init__(start, times, control, gap.floor)
+        self.gap = gap
         self.size = StepSize(order=METHODS[control.stages].order, safety=0.85, grow=5.0)
-        self.span = times[-1] - times[0]
-        self.length = control.first * self.span
         self.jumped = True
         self.last: tuple[float, Stepped] | None = None
         self.highest = max(abs(self._force(start.fields)), control.force)
         self.n_steps = self.n_rejected = self.n_iterations = 0
 
-    @property
-    def waits(self) -> bool:
-        """Whether the film is whole, and stronger than a cavity."""
-        return -self.control.strength < self.gap.floor and not self.state.ruptured
-
     def _force(self, fields: Fields) -> float:
         return self.gap.thrust(fields.pressure + fields.solid, fields.rim)
 
-    @property
-    def is_over(self) -> bool:
-        """Whether the gap has reached its end."""
-        return self.state.fields.rigid_gap >= self.until
-
-    def go_to(self, time: float) -> None:
-        """Step until a time or the end; keep its state."""
-        near = 0.1 * _SHORTEST * self.span  # sums of steps meet it but for round-off
-        while time - self.state.time > near and not self.is_over:
-            left = time - self.state.time
-            cut = self.length >= left * (1.0 - 1e-9)
-            # Two steps rather than one and a tiny rest.
-            length = left if cut else min(self.length, max(0.5 * left, 0.1 * self.length))
-            accepted = self._try(length, cut_from=self.length if cut else 0.0)
-            if accepted and self.every_step and not (cut or self.is_over):
-                self.kept.append(self.state)
-        if not self.is_over:
-            self.state = self.state._replace(time=time)
-        self.kept.append(self.state)
-
     def _try(self, length: float, cut_from: float) -> bool:
-        """Try a step; whether it was accepted. Sets the length of the next."""
-        if length < _SHORTEST * self.span:
-            raise StepFailedError(f"no step can be solved at t = {self.state.time:g}")
+        """See `Progress._try`."""
         try:
-            done = self._step(length)
+            done = self._solve(length)
         except StepFailedError:
             self.n_rejected += 1
             self.last, self.length = None, self.size.shorter(length, math.inf)
@@ -190,15 +149,17 @@ class _Run:
             self.n_rejected += 1
             self.length = self.size.shorter(length, error)
             return False
-        if self.waits and self._lowest(done) < -self.control.strength:
-            return self._rupture(length)
+        if self._ruptures(done):
+            self._rupture(length)
+            self.last, self.jumped = None, True
+            return True
         self._accept(done, length)
         planned = cut_from if error < 1.0 else 0.0
         self.length = self.size.following(length, error, planned)
         self.jumped = False
         return True
 
-    def _step(self, length: float) -> Stepped:
+    def _solve(self, length: float) -> Stepped:
         gap = self.gap.with_floor(-math.inf) if self.waits else self.gap
         state = self.state
         done = step(gap, state.fields, state.sets, state.time, length, self._guess(length))
@@ -227,43 +188,24 @@ class _Run:
         found = max(force / scale, float(moved.max()), abs(error.rim) / end.rim)
         return found / self.control.tolerance if math.isfinite(found) else math.inf
 
-    @staticmethod
-    def _lowest(done: Stepped) -> float:
-        return float(done.stages[-1].pressure.min())
+    def _lowest(self, solved: Stepped) -> float:
+        return float(solved.stages[-1].pressure.min())
 
-    def _rupture(self, length: float) -> bool:
-        """Step up to the instant at which the tension reaches the strength."""
-
-        def excess(share: float) -> float:
-            lowest = float(self.state.fields.pressure.min())
-            if share > 0.0:
-                lowest = self._lowest(self._step(share * length))
-            return -self.control.strength - lowest
-
-        share = bracketed_root(excess, 0.0, 1.0, _RUPTURE)
-        if share > _RUPTURE:
-            self._accept(self._step(share * length), share * length)
-        self.ruptures.append(self.state.time)
-        self.state = self.state._replace(ruptured=True)
-        self.kept.append(self.state)
-        self.last, self.length, self.jumped = None, _AFTER_JUMP * length, True
-        return True
-
-    def _accept(self, done: Stepped, length: float) -> None:
-        before, end = self.state, done.stages[-1]
+    def _accept(self, solved: Stepped, length: float) -> None:
+        before, end = self.state, solved.stages[-1]
         method = METHODS[self.control.stages]
-        powers = np.array([self.gap.dissipation(one) for one in done.stages])
-        pulls = np.array([-self._force(one) * one.speed for one in done.stages])
+        powers = np.array([self.gap.dissipation(one) for one in solved.stages])
+        pulls = np.array([-self._force(one) * one.speed for one in solved.stages])
         self.state = State(
             before.time + length,
             end,
-            done.sets,
-            before.ruptured and bool(done.sets.void.any()),
+            solved.sets,
+            before.ruptured and bool(solved.sets.void.any()),
             before.work + length * float(method.weights @ pulls),
             before.dissipated + length * float(method.weights @ powers),
         )
-        same = all(np.array_equal(a, b) for a, b in zip(before.sets, done.sets, strict=True))
-        self.last = (length, done) if same and not self.jumped else None
+        same = all(np.array_equal(a, b) for a, b in zip(before.sets, solved.sets, strict=True))
+        self.last = (length, solved) if same and not self.jumped else None
         self.highest = max(self.highest, abs(self._force(end)))
         self.n_steps += 1
 

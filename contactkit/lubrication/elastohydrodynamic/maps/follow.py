@@ -5,9 +5,6 @@ implicit Euler stages of which the second starts from
 :math:`y_0 + (1 - \gamma)/\gamma\,(Y_1 - y_0)`; both are L-stable. Where cavities and contacts come
 and go the second order is lost, not the accuracy.
 
-A film stronger than a cavity ruptures at the instant at which its tension reaches the strength;
-from there on the pressure of the cavity is the floor, until the last void is filled again.
-
 References
 ----------
 Hairer and Wanner, Solving Ordinary Differential Equations II (1996), section IV.6.
@@ -24,8 +21,8 @@ from attrs import evolve, frozen
 from numpy.typing import NDArray
 
 from ....numerics.blas import one_thread
-from ....numerics.roots import bracketed_root
 from ..drive import Drive
+from ..progress import Progress
 from ..step import StepFailedError
 from ..wet_gap import Sets
 from .preconditioner import LocalCompliance, Preconditioner
@@ -37,12 +34,9 @@ __all__ = ["Counts", "MapControl", "MapState", "MapTrack", "begun", "follow"]
 Array = NDArray[np.float64]
 
 _GAMMA = 1.0 - math.sqrt(0.5)
-_SHORTEST = 1e-10  # step over the whole span, below which there is none
 _GROW, _SHRINK = 2.0, 0.25  # of a step from one to the next, at most
 _TOO_MUCH = 2.0  # change over the one aimed at, with which a step is repeated
 _SAFETY = 0.9  # of the length that would just meet it
-_RUPTURE = 1e-3  # where in a step the film ruptures, of its length
-_AFTER_RUPTURE = 0.05  # step after a rupture over that before it: pressures jump
 
 
 @frozen
@@ -149,78 +143,46 @@ def follow(
         wet = evolve(wet, drive=drive)
     run = _Run(wet, start, times, control or MapControl())
     run.every_step, run.until = every_step, until
-    for time in times[1:]:
-        run.go_to(time)
-        if run.is_over:
-            break
+    run.go_through(times[1:])
     return MapTrack(run.kept, run.ruptures, run.counts)
 
 
-class _Run:
-    """Progress of a motion."""
+class _Run(Progress[MapState, list[MapStepped]]):
+    """Progress of a motion on a grid."""
+
+    located = 1e-3
+    after_rupture = 0.05
 
     def __init__(
         self, wet: WetMap, start: MapState, times: Sequence[float], control: MapControl
     ) -> None:
-        self.control, self.state = control, start
+        super().__init__(start, times, control, wet.floor)
         self.cavitating, self.whole = wet, evolve(wet, floor=-math.inf)
         self.local = LocalCompliance(wet)
-        self.every_step, self.until = False, math.inf
-        self.kept, self.ruptures = [start], list[float]()
-        self.span = times[-1] - times[0]
-        self.length = control.first * self.span
         self.factors: Preconditioner | None = None
         self.before: MapState | None = None  # state a step ago, if nothing has jumped since
         self.counts = Counts()
-
-    @property
-    def waits(self) -> bool:
-        """Whether the film is whole, and stronger than a cavity."""
-        return -self.control.strength < self.cavitating.floor and not self.state.ruptured
 
     @property
     def wet(self) -> WetMap:
         """The map, without a floor as long as the film is whole."""
         return self.whole if self.waits else self.cavitating
 
-    @property
-    def is_over(self) -> bool:
-        """Whether the gap has reached its end."""
-        return self.state.fields.rigid_gap >= self.until
-
-    def go_to(self, time: float) -> None:
-        """Step until a time or the end; keep its state."""
-        near = 0.1 * _SHORTEST * self.span  # sums of steps meet it but for round-off
-        while time - self.state.time > near and not self.is_over:
-            left = time - self.state.time
-            cut = self.length >= left * (1.0 - 1e-9)
-            # Two steps rather than one and a tiny rest.
-            length = left if cut else min(self.length, max(0.5 * left, 0.1 * self.length))
-            planned = self.length if cut else 0.0
-            accepted = self._try(length)
-            if accepted:
-                self.length = max(self.length, planned)
-                if self.every_step and not (cut or self.is_over):
-                    self.kept.append(self.state)
-        if not self.is_over:
-            self.state = self.state._replace(time=time)
-        self.kept.append(self.state)
-
-    def _try(self, length: float) -> bool:
-        """Try a step; whether it was accepted. Sets the length of the next."""
-        if length < _SHORTEST * self.span:
-            raise StepFailedError(f"no step can be solved at t = {self.state.time:g} s")
+    def _try(self, length: float, cut_from: float) -> bool:
+        """See `Progress._try`."""
         try:
-            stages = self._stages(length)
+            stages = self._solve(length)
         except StepFailedError:
             return self._rejected(_SHRINK * length)
         change = self._change(stages[-1]) / self.control.change
         if change > _TOO_MUCH:
             return self._rejected(length * max(_SHRINK, _SAFETY / change))
-        if self.waits and self._excess(stages) > 0.0:
-            return self._rupture(length)
+        if self._ruptures(stages):
+            self._rupture(length)
+            self.before = None
+            return True
         self._accept(stages, length)
-        self.length = length * min(_GROW, _SAFETY / max(change, 1e-9))
+        self.length = max(cut_from, length * min(_GROW, _SAFETY / max(change, 1e-9)))
         return True
 
     def _rejected(self, length: float) -> bool:
@@ -228,13 +190,13 @@ class _Run:
         self.length = length
         return False
 
-    def _excess(self, stages: list[MapStepped]) -> float:
-        """Tension beyond the strength at the end of a step."""
-        return -self.control.strength - float(stages[-1].fields.pressure.min())
+    def _lowest(self, solved: list[MapStepped]) -> float:
+        return float(solved[-1].fields.pressure.min())
 
     def _change(self, end: MapStepped) -> float:
         """Largest change of a gap over itself."""
-        before, after = self.state.fields, end.fields
+        before: MapFields = self.state.fields
+        after = end.fields
         old, new = before.content, self.wet.gap(after)
         cutoff = self.wet.cutoff
         # Of cells that were in a cavity the content is no gap: there it is left out.
@@ -244,7 +206,7 @@ class _Run:
         least = float(min(old.min(initial=math.inf), new.min(initial=math.inf)))
         return max(opened, abs(after.rigid_gap - before.rigid_gap) / least)
 
-    def _stages(self, length: float) -> list[MapStepped]:
+    def _solve(self, length: float) -> list[MapStepped]:
         state, first = self.state, self.state.fields
         part = length if self.control.order == 1 else _GAMMA * length
         ahead = first
@@ -283,29 +245,12 @@ class _Run:
         )
         return done
 
-    def _rupture(self, length: float) -> bool:
-        """Step up to the instant at which the tension reaches the strength."""
-
-        def excess(share: float) -> float:
-            if share > 0.0:
-                return self._excess(self._stages(share * length))
-            return -self.control.strength - float(self.state.fields.pressure.min())
-
-        share = bracketed_root(excess, 0.0, 1.0, _RUPTURE) if excess(0.0) < 0.0 else 0.0
-        if share > _RUPTURE:
-            self._accept(self._stages(share * length), share * length)
-        self.ruptures.append(self.state.time)
-        self.state = self.state._replace(ruptured=True)
-        self.kept.append(self.state)
-        self.before, self.length = None, _AFTER_RUPTURE * length
-        return True
-
-    def _accept(self, stages: list[MapStepped], length: float) -> None:
-        before, end, wet = self.state, stages[-1], self.wet
-        weights = [1.0] if len(stages) == 1 else [1.0 - _GAMMA, _GAMMA]
+    def _accept(self, solved: list[MapStepped], length: float) -> None:
+        before, end, wet = self.state, solved[-1], self.wet
+        weights = [1.0] if len(solved) == 1 else [1.0 - _GAMMA, _GAMMA]
 
         def over_step(rate: Callable[[MapStepped], float]) -> float:
-            return length * sum(w * rate(one) for w, one in zip(weights, stages, strict=True))
+            return length * sum(w * rate(one) for w, one in zip(weights, solved, strict=True))
 
         self.before = before
         self.state = MapState(
