@@ -291,7 +291,7 @@ class StictionForce(PortSlave):
                 self.event(f"film reformed at t = {time + done.changed * step:.9g} s")
 
     def _go(self, step: float) -> tuple[Film | None, Travel]:
-        """Film on the way of the step, and what it gives there; one that re-wets, from h0 on."""
+        """Film along the step, and what it gives there; one that re-wets, from h0 on."""
         before, film, gap = self.memory, self._film(), self.values["h"]
         if film is not None:
             return film, travel(film, before.gap, gap, step, before.static, before.cavity)

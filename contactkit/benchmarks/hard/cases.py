@@ -52,7 +52,7 @@ _ALL = (
         "the waves of a map differ by many orders of magnitude.",
         naive="projected gradient with the longest stable step",
         ours="a primal-dual active set on nested grids with a sparse inverse as preconditioner",
-        judge="the conditions of contact by an independent transform, over the rms height",
+        judge=RESIDUAL,
         tested="tests/contact/solver/test_stiff_films.py",
         holds=1e-7,
         fails=1e-4,
