@@ -97,7 +97,7 @@ def build_native(
         Error that the grid of a face that is no disc may leave in its force [-], as that of
         `Accuracy`, by default the same. The cost of a step with a cavity grows with the cells,
         of which there are 0.1/film_rtol across the face, or more. Of bodies that deform the error
-        of the largest force, from which the rings follow.
+        of the largest force of a film on rings, which is taken if this is given.
 
     Returns
     -------
@@ -139,11 +139,13 @@ def _deforming(
     scene: SeparationScene, model: Model, given: Mapping[str, Value | str], film_rtol: float | None
 ) -> tuple[Description, NativeContent]:
     """Description and content of the FMU of a film between bodies that deform."""
-    film, name = deforming_film(scene, film_rtol), DEFORMING[model]
+    name = DEFORMING[model]
+    mass = _scene_mass(scene, given) if model == "stiction-mass" else None
+    film = deforming_film(scene, film_rtol, mass)
     ports = free_ports(film, name)
     values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
-    if model == "stiction-mass":
-        values["m"] = scene_mass(scene, given)
+    if mass is not None:
+        values["m"] = mass
     elif "h0" in given:
         given = {"h": given["h0"], **given}
     values |= {key: start_value(ports, key, value) for key, value in given.items()}
@@ -153,7 +155,7 @@ def _deforming(
     return about, NativeContent(bodies=film.bodies, scene=scene)
 
 
-def scene_mass(scene: SeparationScene, given: Mapping[str, Value | str]) -> float:
+def _scene_mass(scene: SeparationScene, given: Mapping[str, Value | str]) -> float:
     """Mass that a scene has [kg], or that is given.
 
     Raises

@@ -14,7 +14,6 @@ from typing import Literal, NamedTuple
 
 from attrs import evolve
 
-from ...accuracy import Accuracy
 from ...errors import DescriptionError, PlanError
 from ...lubrication.elastohydrodynamic.mesh import RingMesh, disc_nodes, graded_nodes
 from ...lubrication.elastohydrodynamic.motion import SmoothGap
@@ -27,7 +26,7 @@ from ...separation.effects.meniscus import MeniscusForce
 from ...separation.effects.viscous import TensionLimit
 from ...separation.plan import plan
 from ...units import quantity_text
-from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
+from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, TOLERANCE, Port, Value
 from .film import FINE
 from .models import native_model
 from .records import Bodies, Matrix, Rings, Series
@@ -41,17 +40,25 @@ DEFORMING = {"stiction-mass": "deforming-mass", "stiction-force": "deforming-for
 HOLDS_RINGS = 10.0
 """beta up to which the film on rings is taken: beyond, the bodies deform out to the rim of the film."""
 
+LIGHTEST = 0.5
+"""Damping of the film over that of the mass on the spring, c/sqrt(k m), up to which these stand for bodies.
+
+A mass at rest that is pulled at once has its force right to 1.4 % of the pull with it, to 3.7 % with 1, where it
+begins to ring on the spring, to 19 % with 3 and to 63 % with 10: the bodies answer by many modes, not by one.
+"""
+
 # What n rings leave of the largest force of a pull, 8.8/n^2 at beta = 0.1 to 6.6/n^2 at 10, with a rim at
 # 8 widths of the pressure; beyond, rings are as many per decade.
 _LEFT, _NEAR_RIM = 9.0, 8.0
 _USUAL = 2.5e-3  # of the force, if nothing is asked for: 60 rings, and 1 to 2 ms an internal step
 _FEWEST, _MOST = 24, 128
-_STANDARD = Accuracy.standard.film_rtol  # stands for nothing asked for, as in `DeformingPlan.elements`
 # Displacement over the gap, by the force and the gap that there are, up to which steps on rings are taken:
 # a pull at beta = 10 reaches 2.3, where its gap is smallest, and a press to five gaps 2.1.
 _SOFTEST = 3.0
 # Internal steps on rings of a step of the host: 1000 are some 2 s.
 _RING_STEPS = 1000
+# Below, with 60 rings, round-off hides the error of a step: 1e-9 is never met.
+_LEAST_RTOL = 1e-8
 _ROUNDED = 1.0 + 1e-9  # of a beta that was meant to be the bound
 _LOWEST = 1e-3  # gap over that at the start from which the damping of rigid bodies is tabulated
 _FAR = 100.0  # final gaps to which it is
@@ -89,7 +96,9 @@ class DeformingFilm(NamedTuple):
     plan: DeformingPlan
 
 
-def exactness_of(scene: SeparationScene, film_rtol: float | None = None) -> Exactness:
+def exactness_of(
+    scene: SeparationScene, film_rtol: float | None = None, mass: float | None = None
+) -> Exactness:
     """Which film the FMU of a scene with `ElasticBodies` holds, and how exact it is.
 
     Parameters
@@ -97,7 +106,9 @@ def exactness_of(scene: SeparationScene, film_rtol: float | None = None) -> Exac
     scene : SeparationScene
         With `ElasticBodies`.
     film_rtol : float, optional
-        Error of the largest force that is asked for.
+        Error of the largest force that the film on rings shall have; if not given, a spring may do.
+    mass : float, optional
+        Of the bodies [kg], where it is inside of the FMU.
 
     Raises
     ------
@@ -105,11 +116,13 @@ def exactness_of(scene: SeparationScene, film_rtol: float | None = None) -> Exac
         If no FMU holds the scene.
     """
     made, beta = _planned(scene)
-    return _exactness(made, beta, film_rtol)
+    return _exactness(made, beta, film_rtol, mass)
 
 
-def deforming_film(scene: SeparationScene, film_rtol: float | None = None) -> DeformingFilm:
-    """Tables of the film of a scene with `ElasticBodies`.
+def deforming_film(
+    scene: SeparationScene, film_rtol: float | None = None, mass: float | None = None
+) -> DeformingFilm:
+    """Tables of the film of a scene with `ElasticBodies`; arguments as in `exactness_of`.
 
     Raises
     ------
@@ -117,9 +130,9 @@ def deforming_film(scene: SeparationScene, film_rtol: float | None = None) -> De
         If no FMU holds the scene.
     """
     made, beta = _planned(scene)
-    film, exactness = made.film, _exactness(made, beta, film_rtol)
+    film, exactness = made.film, _exactness(made, beta, film_rtol, mass)
     is_flat = math.isinf(film.radius)
-    stiffness = series_stiffness(film.radius, film.width, made.modulus)
+    stiffness = _stiffness(made)
     bodies = Bodies(
         gap=film.gap,
         stiffness=stiffness,
@@ -165,27 +178,45 @@ def _check(scene: SeparationScene) -> None:
             )
 
 
-def _exactness(made: DeformingPlan, beta: float | None, asked: float | None) -> Exactness:
+def _exactness(
+    made: DeformingPlan, beta: float | None, asked: float | None, mass: float | None
+) -> Exactness:
     if beta is not None and beta > HOLDS_RINGS:
         raise PlanError(
             f"no FMU holds beta = {beta:.3g}: beyond {HOLDS_RINGS:g} the bodies deform out to the rim "
             "of the film; run the scene itself, ck.simulate, or pull less"
         )
-    if asked == _STANDARD:
-        asked = None
-    has_layers = any(stack.layers for stack in made.scene.interface.stacks)
-    is_stiff = beta is not None and beta <= HOLDS_TO * _ROUNDED and not has_layers
-    if beta is not None and is_stiff and (asked is None or series_error(beta) <= asked):
+    is_stiff = beta is not None and beta <= HOLDS_TO * _ROUNDED and _has_spring(made, mass)
+    if beta is not None and is_stiff and asked is None:
         return _as_series(made, beta)
     return _as_rings(made, beta, asked or _USUAL)
 
 
+def _has_spring(made: DeformingPlan, mass: float | None) -> bool:
+    """Whether the bodies have a known spring, on which the mass does not ring."""
+    if any(stack.layers for stack in made.scene.interface.stacks):
+        return False
+    return mass is None or _damping(made) <= LIGHTEST * math.sqrt(_stiffness(made) * mass) * _ROUNDED
+
+
+def _stiffness(made: DeformingPlan) -> float:
+    return series_stiffness(made.film.radius, made.film.width, made.modulus)
+
+
+def _damping(made: DeformingPlan) -> float:
+    """Damping of rigid bodies at the start [N.s/m]."""
+    film = made.film
+    part = 1.5 if math.isinf(film.radius) else 6.0
+    return part * math.pi * film.viscosity * film.width**4 / film.gap**3
+
+
 def _as_series(made: DeformingPlan, beta: float) -> Exactness:
-    error, film = series_error(beta), made.film
-    stiffness = quantity_text(series_stiffness(film.radius, film.width, made.modulus), "N/m")
+    error, stiffness = series_error(beta), quantity_text(_stiffness(made), "N/m")
+    answer = quantity_text(_damping(made) / _stiffness(made), "s")
     text = (
         f"rigid bodies in series with a spring of {stiffness}, for beta = {beta:.2g}: the largest force "
-        f"of a pull is right to {error:.1g}, the force to 5 % of it while it builds up"
+        f"of a pull is right to {error:.2g}, the force to 5 % of it while it builds up; motions that change "
+        f"within {answer} or less need the film on rings (film_rtol)"
     )
     return Exactness("series", beta, 0, error, text)
 
@@ -203,7 +234,7 @@ def _as_rings(made: DeformingPlan, beta: float | None, asked: float) -> Exactnes
     rings = max(4 * math.ceil(wanted / 4.0), _FEWEST)
     error = _LEFT * (stretch / rings) ** 2
     of = "" if beta is None else f" for beta = {beta:.2g}"
-    text = f"the film on {rings} rings{of}: the force is right to {error:.1g} of its largest"
+    text = f"the film on {rings} rings{of}: the force is right to {error:.2g} of its largest"
     return Exactness("rings", beta, rings, error, text)
 
 
@@ -260,6 +291,8 @@ def _within(port: Port, gap: float, *, on_rings: bool) -> Port:
     if port.name == "h0":
         low, high = (0.5 * gap, 2.0 * gap) if on_rings else (_LOWEST * gap, None)
         return evolve(port, exclusive=False, minimum=low, maximum=high)
+    if port.name == TOLERANCE and on_rings:
+        return evolve(port, minimum=_LEAST_RTOL)
     if port.name == "beta_max":
         return evolve(port, maximum=_SOFTEST if on_rings else 1.0)
     return port

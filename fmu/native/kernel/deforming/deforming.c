@@ -13,6 +13,8 @@
 /* Of the step of the host: internal steps so short need not meet the tolerance. Whatever begins at once, a speed
    or a force, makes the film respond in all its times, and no estimate holds there. As Control.first. */
 #define FIRST 1e-5
+/* Mass over c^2/k of the film and the spring: 1/LIGHTEST^2 of fmu/native/deforming.py, less round-off. */
+#define LIGHTEST 3.9999
 #define SAFETY 0.85 /* these as in elastohydrodynamic/follow.py and numerics/step_size.py */
 #define GROW 5.0
 #define SHRINK 0.1
@@ -37,6 +39,13 @@ static const char *apply_mass(ck_model *model) {
     if (v[CK_H_REL] <= v[CK_H0]) return ck_wrong(model, CK_H_REL, "exceed", CK_H0, "m");
     apply(model);
     d->mass = v[CK_M] * d->gap / (d->force * d->time * d->time);
+    if (d->record->has_series && d->mass < LIGHTEST) {
+        snprintf(model->wrong, sizeof model->wrong,
+                 "m must be %.3g kg at least, got %.9g kg: a lighter mass rings on the spring that stands for "
+                 "the bodies; build the FMU with this mass, for the film on rings",
+                 LIGHTEST * d->force * d->time * d->time / d->gap, v[CK_M]);
+        return model->wrong;
+    }
     d->spring = v[CK_K_S] * d->gap / d->force, d->relaxed = v[CK_H0] / d->gap;
     return NULL;
 }
@@ -89,6 +98,7 @@ static int step_once(ck_model *model, ck_attempted *a, double left, double whole
     int most = ck_step_limit(model), first = 1;
     a->length = planned < left ? left / ceil(left / planned) : left;
     a->before = now->before, a->highest = now->highest / d->force;
+    if (d->has_mass) a->highest = ck_larger(a->highest, fabs(ck_course_at(&a->course, a->time, &error)));
     for (;; first = 0) {
         int solved = ck_stages_solve(d, a, &error);
         if (++*count > most) return TOO_MANY;

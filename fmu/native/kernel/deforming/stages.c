@@ -17,6 +17,7 @@
 #define LEAST_GAP 0.1
 #define NO_PART 1e-8     /* of a correction, below which a gap closes */
 #define EXTRAPOLATED 2.5 /* growth of a step up to which the last one is extrapolated */
+#define NO_FORCE 1e-6    /* of the unit: a smaller one moves nothing, and is lost in the round-off of gaps */
 /* Derivatives: corrections by the last factors, which are 1e-3 or less off, to this. */
 #define REFINED 1e-9
 
@@ -131,9 +132,10 @@ static int estimate(ck_deforming *d, const ck_attempted *a, double *error) {
     ck_dense_solve(d->square, d->exchanged + s * m, m, found);
     for (i = 0; i < d->n; i++) force += end->force_slopes[i] * found[i];
     scale = fabs(end->force) > a->highest ? fabs(end->force) : a->highest;
+    if (!(scale > NO_FORCE)) scale = NO_FORCE;
     moved = ck_film_moved(d, stage(d, s - 1), gap_at(d, a, s - 1), found, d->has_mass ? found[d->n] : 0.0,
                           &ignored);
-    force = scale > 0.0 ? fabs(force) / scale : 0.0;
+    force = fabs(force) / scale;
     *error = (force > moved ? force : moved) / d->rtol;
     return *error < HUGE_VAL;
 }
