@@ -32,8 +32,8 @@ def _(scene: SeparationScene, accuracy: Accuracy) -> FmuStart:
 
     if scene.effect(ElasticBodies) is not None:
         raise PlanError(
-            "the Python FMUs have films between rigid bodies, and this scene has ElasticBodies: build "
-            "it --native, as contactkit.fmu.native.build.build_native"
+            "the Python FMUs have films between rigid bodies, and this scene has ElasticBodies: "
+            "build it --native, as contactkit.fmu.native.build.build_native"
         )
     return FmuStart("stiction-mass", mass_values(scene))
 

@@ -51,7 +51,11 @@ PAGES: Mapping[str, Page] = {
     ),
     "bridges": Page("bridges.md and its picture", 1, _measured("bridges")),
     "films": Page("films.md and its pictures, fmu-native.md: cavities", 3, _measured("films")),
-    "deforming": Page("img/deforming-pull.png", 0.3, (("deforming",),)),
+    "deforming": Page(
+        "img/deforming-pull.png; fmu-native.md: exactness of FMUs of deforming bodies",
+        1,
+        (("deforming",), ("deforming/fmus.py", "--write")),
+    ),
     "adhesion": Page("adhesion.md and its picture", 10, _measured("adhesion")),
     "claims": Page("errata.md: statements of chapter 2", 3, _measured("claims")),
     "work-precision": Page("img/work-precision-contact.png", 4, _measured("work_precision")),

@@ -76,9 +76,7 @@ def contents_of(
     native_model(model).check(tables, faces, bodies)
     variables = tuple(_variable(port, start[port.name]) for port in ports)
     number = [*MODELS].index(model)
-    return Contents(
-        model=number, variables=variables, tables=tables, faces=faces, bodies=bodies
-    )
+    return Contents(model=number, variables=variables, tables=tables, faces=faces, bodies=bodies)
 
 
 def _variable(port: Port, start: Value) -> Variable:

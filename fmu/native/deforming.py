@@ -1,9 +1,9 @@
-"""Native FMUs of a film between bodies that deform: which of two films they hold, and how exact it is.
+"""Native FMUs of a film between bodies that deform: a spring in series, or the film on rings.
 
-Below a displacement beta by the film over its gap of 0.02 the bodies may stand for a spring in series with
-the film of rigid ones (`separation.deforming.maxwell`); above, the state of the FMU is the film on
-rings, with the matrix of displacements of its bodies in the tables. Scenes on maps have none: their
-film is a field of some 10 000 cells with contacts and cavities.
+Below a displacement beta by the film over its gap of 0.02 the bodies may stand for a spring in
+series with the film of rigid ones (`separation.deforming.maxwell`); above, the state of the FMU is
+the film on rings, with the matrix of displacements of its bodies in the tables. Scenes on maps have
+none: their film is a field of some 10 000 cells with contacts and cavities.
 """
 
 from __future__ import annotations
@@ -32,28 +32,37 @@ from .models import native_model
 from .records import Bodies, Matrix, Rings, Series
 from .tables import tabulate
 
-__all__ = ["DEFORMING", "DeformingFilm", "Exactness", "deforming_film", "exactness_of", "free_ports"]
+__all__ = [
+    "DEFORMING",
+    "DeformingFilm",
+    "Exactness",
+    "deforming_film",
+    "exactness_of",
+    "free_ports",
+]
 
 DEFORMING = {"stiction-mass": "deforming-mass", "stiction-force": "deforming-force"}
 """Models of films between bodies that deform, by those between rigid ones."""
 
 HOLDS_RINGS = 10.0
-"""beta up to which the film on rings is taken: beyond, the bodies deform out to the rim of the film."""
+"""beta up to which the film on rings is taken: beyond, the bodies deform out to its rim."""
 
 LIGHTEST = 0.5
-"""Damping of the film over that of the mass on the spring, c/sqrt(k m), up to which these stand for bodies.
+"""Damping of the film over that of the mass on the spring, c/sqrt(k m), up to which these hold.
 
-A mass at rest that is pulled at once has its force right to 1.4 % of the pull with it, to 3.7 % with 1, where it
-begins to ring on the spring, to 19 % with 3 and to 63 % with 10: the bodies answer by many modes, not by one.
+A mass at rest that is pulled at once has its force right to 1.4 % of the pull with it, to 3.7 %
+with 1, where it begins to swing on the spring, to 19 % with 3 and to 63 % with 10: the bodies
+answer by many modes, not by one.
 """
 
-# What n rings leave of the largest force of a pull, 8.8/n^2 at beta = 0.1 to 6.6/n^2 at 10, with a rim at
-# 8 widths of the pressure; beyond, rings are as many per decade.
-_LEFT, _NEAR_RIM = 9.0, 8.0
-_USUAL = 2.5e-3  # of the force, if nothing is asked for: 60 rings, and 1 to 2 ms an internal step
-_FEWEST, _MOST = 24, 128
-# Displacement over the gap, by the force and the gap that there are, up to which steps on rings are taken:
-# a pull at beta = 10 reaches 2.3, where its gap is smallest, and a press to five gaps 2.1.
+# What n rings leave of the force, over its largest in a pull: 10/n^2 at beta = 0.1, 11.6/n^2 at 10,
+# with a rim at 8 widths of the pressure; beyond, rings are as many per decade.
+_LEFT, _NEAR_RIM = 12.0, 8.0
+# Error if nothing is asked for: 60 rings, and 1 ms an internal step.
+_USUAL = 3.4e-3
+_FEWEST, _MOST = 24, 128  # that still show the pressure; of 8 ms an internal step
+# Displacement over the gap, by the force and the gap that there are, up to which steps on rings are
+# taken: a pull at beta = 10 reaches 2.3, where its gap is smallest, and a press to five gaps 2.1.
 _SOFTEST = 3.0
 # Internal steps on rings of a step of the host: 1000 are some 2 s.
 _RING_STEPS = 1000
@@ -65,7 +74,7 @@ _FAR = 100.0  # final gaps to which it is
 
 
 class Exactness(NamedTuple):
-    """Which film an FMU of bodies that deform holds.
+    """Film of an FMU of bodies that deform, and its error.
 
     Attributes
     ----------
@@ -99,14 +108,15 @@ class DeformingFilm(NamedTuple):
 def exactness_of(
     scene: SeparationScene, film_rtol: float | None = None, mass: float | None = None
 ) -> Exactness:
-    """Which film the FMU of a scene with `ElasticBodies` holds, and how exact it is.
+    """Film that the FMU of a scene with `ElasticBodies` holds, and how exact it is.
 
     Parameters
     ----------
     scene : SeparationScene
         With `ElasticBodies`.
     film_rtol : float, optional
-        Error of the largest force that the film on rings shall have; if not given, a spring may do.
+        Error of the largest force that the film on rings shall have; if not given, a spring may
+        do.
     mass : float, optional
         Of the bodies [kg], where it is inside of the FMU.
 
@@ -162,9 +172,9 @@ def _check(scene: SeparationScene) -> None:
         if surface.curvature is None:
             raise PlanError(
                 f"no FMU holds ElasticBodies on a {type(surface).__name__}, "
-                f"interface.{name}.surface: its film is a field on a map, of some 10 000 cells with "
-                "their own contacts and cavities, and a step takes a second; run the scene itself, "
-                "ck.simulate, or give a Flat, a Sphere or a Paraboloid"
+                f"interface.{name}.surface: its film is a field on a map, of some 10 000 cells "
+                "with their own contacts and cavities, and a step takes a second; run the scene "
+                "itself, ck.simulate, or give a Flat, a Sphere or a Paraboloid"
             )
     for kind, why in (
         (SolidContact, "asperities that carry"),
@@ -183,8 +193,8 @@ def _exactness(
 ) -> Exactness:
     if beta is not None and beta > HOLDS_RINGS:
         raise PlanError(
-            f"no FMU holds beta = {beta:.3g}: beyond {HOLDS_RINGS:g} the bodies deform out to the rim "
-            "of the film; run the scene itself, ck.simulate, or pull less"
+            f"no FMU holds beta = {beta:.3g}: beyond {HOLDS_RINGS:g} the bodies deform out to the "
+            "rim of the film; run the scene itself, ck.simulate, or pull less"
         )
     is_stiff = beta is not None and beta <= HOLDS_TO * _ROUNDED and _has_spring(made, mass)
     if beta is not None and is_stiff and asked is None:
@@ -196,7 +206,9 @@ def _has_spring(made: DeformingPlan, mass: float | None) -> bool:
     """Whether the bodies have a known spring, on which the mass does not ring."""
     if any(stack.layers for stack in made.scene.interface.stacks):
         return False
-    return mass is None or _damping(made) <= LIGHTEST * math.sqrt(_stiffness(made) * mass) * _ROUNDED
+    return (
+        mass is None or _damping(made) <= LIGHTEST * math.sqrt(_stiffness(made) * mass) * _ROUNDED
+    )
 
 
 def _stiffness(made: DeformingPlan) -> float:
@@ -214,9 +226,9 @@ def _as_series(made: DeformingPlan, beta: float) -> Exactness:
     error, stiffness = series_error(beta), quantity_text(_stiffness(made), "N/m")
     answer = quantity_text(_damping(made) / _stiffness(made), "s")
     text = (
-        f"rigid bodies in series with a spring of {stiffness}, for beta = {beta:.2g}: the largest force "
-        f"of a pull is right to {error:.2g}, the force to 5 % of it while it builds up; motions that change "
-        f"within {answer} or less need the film on rings (film_rtol)"
+        f"rigid bodies in series with a spring of {stiffness}, for beta = {beta:.2g}: the largest "
+        f"force of a pull is right to {error:.2g}, the force to 5 % of it while it builds up; "
+        f"motions that change within {answer} or less need the film on rings (film_rtol)"
     )
     return Exactness("series", beta, 0, error, text)
 

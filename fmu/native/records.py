@@ -245,7 +245,7 @@ class Matrix(Record):
 
 @frozen(kw_only=True)
 class Rings(Record):
-    """A film on rings and the displacement under it, over a width, the gap of its bodies and a pressure."""
+    """A film on rings and the displacement under it, by units of radii, gaps and pressures."""
 
     width: float = positive("unit of radii [m]")
     pressure: float = positive("unit of pressures [Pa]")

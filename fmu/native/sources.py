@@ -81,7 +81,8 @@ def _declarations() -> tuple[str, ...]:
         "extern const char *const ck_names[CK_VARIABLES];\n"
         "extern const int ck_discrete[CK_DISCRETE];\n"
         "/* Whether a model has a film, and faces; -1: it may; whether its bodies deform. */\n"
-        "extern const int ck_has_film[CK_MODELS], ck_has_faces[CK_MODELS], ck_deforms[CK_MODELS];\n\n"
+        "extern const int ck_has_film[CK_MODELS], ck_has_faces[CK_MODELS];\n"
+        "extern const int ck_deforms[CK_MODELS];\n\n"
         "/* Read the numbers of a file; whether all is in range says the reader. */\n"
         "void ck_read_contents(ck_reader *r, ck_contents *to);\n",
         "".join(_hooks()),

@@ -1,7 +1,7 @@
 """The variables of ``deforming-mass`` and ``deforming-force``: films between bodies that deform.
 
-They are native alone: the kernel in C steps the film and the bodies together (`native.deforming`), and
-no Python FMU does.
+They are native alone: the kernel in C steps the film and the bodies together (`native.deforming`),
+and no Python FMU does.
 """
 
 from __future__ import annotations

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -32,7 +33,7 @@ OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
 R, GAP, SPEED = 5e-3, 1e-6, 1e-5
 WIDTH = math.sqrt(R * GAP)
 RIM = 8.0 * WIDTH
-COARSE = 9.0 / 32.0**2  # error of 32 rings
+COARSE = 12.0 / 32.0**2  # error of 32 rings
 
 
 def modulus_of(beta):
@@ -83,7 +84,7 @@ def force(shelf, open_fmu):
 def pulled(host, times):
     """Forces along a pull at constant speed."""
     found = []
-    for begin, end in zip(times[:-1], times[1:], strict=True):
+    for begin, end in pairwise(times):
         host.set(h=GAP + SPEED * end, v=SPEED)
         assert host.step(end - begin) == OK, host.errors
         found.append(host.get("F"))
@@ -147,7 +148,7 @@ def test_rings_are_the_engine_on_the_same_mesh(made, final, force):
 @pytest.mark.slow
 def test_both_are_as_exact_as_they_say(force):
     """Against the engine, extrapolated from three meshes."""
-    for beta, rtol in ((0.01, {}), (0.01, {"film_rtol": 2.5e-3}), (1.0, {})):
+    for beta, rtol in ((0.01, {}), (0.01, {"film_rtol": 3.4e-3}), (1.0, {})):
         made = scene(beta, 4e-6)
         found = ck.simulate(ck.plan(made))
         stated = exactness_of(made, **rtol)
@@ -156,7 +157,7 @@ def test_both_are_as_exact_as_they_say(force):
         largest = found["pull"].max()
         assert forces.max() == pytest.approx(largest, rel=1.2 * stated.error)
         if stated.film == "rings":
-            assert forces == pytest.approx(found["pull"][1:], abs=2.0 * stated.error * largest)
+            assert forces == pytest.approx(found["pull"][1:], abs=1.1 * stated.error * largest)
 
 
 @pytest.mark.slow
@@ -207,7 +208,7 @@ def test_a_mass_on_the_spring_moves_as_on_rings(shelf, open_fmu):
 @pytest.mark.parametrize("beta", [1e-3, 0.5])
 def test_derivatives_and_states(beta, force):
     """dF/dh and dF/dv over a step are its differences; a step is repeated to the bit."""
-    more = {"rtol": 1e-9} if beta < 0.02 else {"rtol": 1e-7, "film_rtol": 9.0 / 24.0**2}
+    more = {"rtol": 1e-9} if beta < 0.02 else {"rtol": 1e-7, "film_rtol": 12.0 / 24.0**2}
     host = force(scene(beta, 4e-6), **more)
     slave, reference = host.slave, {n: [v.valueReference] for n, v in host.variables.items()}
     for begin, length in ((0.0, 0.01), (0.01, 0.02)):
@@ -258,7 +259,7 @@ def test_beyond_its_range_a_step_is_discarded(force):
 def test_a_release_is_an_event_of_fmi_3(shelf):
     pull = damping(GAP) * SPEED
     made = scene(0.5, 2e-6, force=pull, mass=1e-2)
-    path = shelf(build_native, made, fmi=3, start={"rtol": 1e-4}, film_rtol=9.0 / 24.0**2, **ONE)
+    path = shelf(build_native, made, fmi=3, start={"rtol": 1e-4}, film_rtol=12.0 / 24.0**2, **ONE)
     assert validate(path) == []
     series = np.array([(0.0, pull), (1.0, pull)], dtype=[("time", float), ("F_ext", float)])
     found = fmpy.simulate_fmu(
@@ -281,21 +282,23 @@ def test_what_no_fmu_holds_is_refused_by_name(tmp_path):
         with pytest.raises(ck.PlanError, match=message):
             build_native(made, out, model="stiction-force", **ONE)
     rough = ck.GaussianRoughness(rms=1e-7, correlation_length=1e-6, cutoff=1e-6, seed=1)
-    with pytest.raises(ck.PlanError, match=r"a GaussianRoughness, interface\.upper\.surface: .*10 000 cells"):
+    with pytest.raises(
+        ck.PlanError, match=r"a GaussianRoughness, interface\.upper\.surface: .*10 000 cells"
+    ):
         build_native(scene(0.1, upper=rough), out, model="stiction-force", **ONE)
-    with pytest.raises(ck.DescriptionError, match="film_rtol must be 0.0005.* at least"):
+    with pytest.raises(ck.DescriptionError, match=r"film_rtol must be 0\.0007.* at least"):
         exactness_of(scene(0.1), 1e-4)
     with pytest.raises(ck.DescriptionError, match="m must be given"):
         build_native(scene(0.1), out, **ONE)
 
 
-def test_which_film_is_taken_and_what_is_said():
+def test_the_film_that_is_taken_and_its_error():
     stiff, soft = exactness_of(scene(0.01)), exactness_of(scene(0.1))
     assert (stiff.film, stiff.rings, stiff.error) == ("series", 0, series_error(0.01))
     assert "spring of " in stiff.text
     assert soft.film == "rings"
     assert soft.rings == 60
-    assert "film on 60 rings for beta = 0.1: the force is right to 0.0025 of" in soft.text
+    assert "film on 60 rings for beta = 0.1: the force is right to 0.0033 of" in soft.text
     assert exactness_of(scene(0.01), 5e-3).film == "rings"
     # The pull is an input, and may be 0 in the scene: any may come.
     still = scene(0.01, force=0.0, mass=1e-3)

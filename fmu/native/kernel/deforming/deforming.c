@@ -108,7 +108,7 @@ static int step_once(ck_model *model, ck_attempted *a, double left, double whole
         if (!solved) a->before = 0.0;
     }
     accept(model, a, error);
-    /* A step that was cut short by the end of the span tells nothing against the one that was planned. */
+    /* A step that was cut short by the end of the span is no reason against the one that was planned. */
     if (first && now->next < planned && error <= 1.0) now->next = planned;
     return SOLVED;
 }

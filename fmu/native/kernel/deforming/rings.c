@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#define TWO_PI 6.283185307179586476925287
+#define TWO_PI 6.283185307179586476925287 /* of a circle */
 
 /* Points and weights of Gauss-Legendre on (0, 1): h^3 r on an element is a polynomial of degree 4. */
 static const double POINT[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
