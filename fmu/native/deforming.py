@@ -26,7 +26,7 @@ from ...separation.effects.meniscus import MeniscusForce
 from ...separation.effects.viscous import TensionLimit
 from ...separation.plan import plan
 from ...units import quantity_text
-from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, TOLERANCE, Port, Value
+from ..framework.ports import STEP_LIMIT, TOLERANCE, Port, Value
 from .film import FINE
 from .models import native_model
 from .records import Bodies, Matrix, Rings, Series
@@ -64,8 +64,8 @@ _FEWEST, _MOST = 24, 128  # that still show the pressure; of 8 ms an internal st
 # Displacement over the gap, by the force and the gap that there are, up to which steps on rings are
 # taken: a pull at beta = 10 reaches 2.3, where its gap is smallest, and a press to five gaps 2.1.
 _SOFTEST = 3.0
-# Internal steps on rings of a step of the host: 1000 are some 2 s.
-_RING_STEPS = 1000
+# Internal steps of a step of the host, on rings some 2 s, of a spring 0.02 s: a pull takes 50-100.
+_RING_STEPS, _SERIES_STEPS = 1000, 2000
 # Below, with 60 rings, round-off hides the error of a step: 1e-9 is never met.
 _LEAST_RTOL = 1e-8
 _ROUNDED = 1.0 + 1e-9  # of a beta that was meant to be the bound
@@ -288,7 +288,7 @@ def free_ports(film: DeformingFilm, model: str) -> tuple[Port, ...]:
         "beta_max": _SOFTEST if on_rings else HOLDS_TO,
         "h_rel": loading.final_gap,
         "k_s": own.stiffness if own else 0.0,
-        STEP_LIMIT: _RING_STEPS if on_rings else NATIVE_STEPS,
+        STEP_LIMIT: _RING_STEPS if on_rings else _SERIES_STEPS,
     }
     return tuple(
         _within(evolve(port, start=starts.get(port.name, port.start)), gap, on_rings=on_rings)

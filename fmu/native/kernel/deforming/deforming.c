@@ -145,7 +145,7 @@ static int go(ck_model *model, ck_attempted *a, double time, double length) {
         if (d->has_mass)
             note_release(model, gap, speed, time + a->time * d->time, a->length * d->time);
         else if (!ck_stages_slopes(d, a, whole)) return NO_STEP;
-        if (softness(d, now->force, now->axis) > model->state.values[CK_BETA_MAX]) trouble = TOO_SOFT;
+        if (!(softness(d, now->force, now->axis) <= model->state.values[CK_BETA_MAX])) trouble = TOO_SOFT;
     }
     now->before *= d->time, now->next *= d->time;
     return trouble;

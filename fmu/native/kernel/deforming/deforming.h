@@ -29,6 +29,7 @@ typedef struct {
     double *stored, *rest, *stored_slopes, *rest_slopes;
     double *stored_by_gap, *rest_by_gap, *rest_by_speed, *force_slopes;
     double force, power; /* power: what the film dissipates */
+    int closed;          /* a gap is not above 0: there is no film */
 } ck_level;
 
 /* Room for a film and its steps, taken once. Unknowns are those of the film, then the gap of the

@@ -39,7 +39,11 @@ void ck_rings_level(ck_deforming *d, const double *y, double gap, ck_level *l, i
     const double *k = rings->compliance.entry;
     int n = d->n, m = d->size, wide = n + 1, i, j;
     double sum = 0.0, power = 0.0;
-    for (i = 0; i <= n; i++) d->h[i] = gap + rings->relief[i] + displacement(d, y, i);
+    l->closed = 0;
+    for (i = 0; i <= n; i++) {
+        d->h[i] = gap + rings->relief[i] + displacement(d, y, i);
+        l->closed |= !(d->h[i] > 0.0);
+    }
     conduct(d);
     for (i = 0; i < n; i++) {
         l->stored[i] = rings->area[i] * d->h[i], l->rest[i] = 0.0;

@@ -17,7 +17,7 @@ void ck_series_level(ck_deforming *d, const double *y, double speed, ck_level *l
     int m = d->size;
     l->stored[0] = x, l->rest[0] = -f / c;
     l->stored[1] = f + k * x / (record->widens ? 1.5 : 1.0), l->rest[1] = -k * speed;
-    l->force = f, l->power = f * f / c;
+    l->force = f, l->power = f * f / c, l->closed = !(x > 0.0);
     if (!slopes) return;
     l->stored_slopes[0] = 1.0, l->stored_slopes[1] = 0.0;
     l->stored_slopes[m] = k, l->stored_slopes[m + 1] = 1.0;

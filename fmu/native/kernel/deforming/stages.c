@@ -23,12 +23,15 @@
 
 static double *stage(const ck_deforming *d, int k) { return d->stages + (long)k * d->size; }
 
-static void evaluate(ck_deforming *d, const ck_attempted *a, int slopes) {
-    int k;
+/* All stages; 0 if a gap closes. */
+static int evaluate(ck_deforming *d, const ck_attempted *a, int slopes) {
+    int k, open = 1;
     for (k = 0; k < d->method->stages; k++) {
         double rate, given = ck_course_at(&a->course, a->time + d->method->nodes[k] * a->length, &rate);
         ck_level_of(d, stage(d, k), given, rate, &d->levels[k], slopes);
+        open &= !d->levels[k].closed;
     }
+    return open;
 }
 
 /* Polynomial through the stages of the last step at those of this one; the start where there is none. */
@@ -147,7 +150,7 @@ int ck_stages_solve(ck_deforming *d, const ck_attempted *a, double *error) {
     guess(d, a);
     for (iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
         double part, size;
-        evaluate(d, a, !known);
+        if (!evaluate(d, a, !known)) return 0;
         residual(d, a->length);
         if (!known && !factorise(d, a->length)) return 0;
         known = 1;
@@ -160,8 +163,7 @@ int ck_stages_solve(ck_deforming *d, const ck_attempted *a, double *error) {
             continue;
         }
         if (size < SOLVED || (size < STALLED && size > 0.5 * before)) {
-            evaluate(d, a, 1);
-            return estimate(d, a, error);
+            return evaluate(d, a, 1) && estimate(d, a, error);
         }
         if (size > CONTRACTION * (before < HUGE_VAL ? before : CONTRACTION)) known = 0;
         before = size;
