@@ -563,7 +563,7 @@ def test_a_stiff_ball_on_a_film_is_pulled_by_the_classical_force():
 
 def test_the_pull_on_a_ball_that_yields_grows_with_the_load():
     soft = ck.Material(young_modulus=1e12, poisson_ratio=NU)
-    runs = [ball_on_film(force, soft, width=12.0 * RIM) for force in (0.0, 2e-3, 2e-2, 2e-1)]
+    runs = [ball_on_film(force, soft, width=12.0 * RIM) for force in (0.0, 2e-2, 2e-1)]
     pulls = [run.of(ck.FilmMeniscus).force for run in runs]
     assert pulls == sorted(pulls)
     assert pulls[-1] > 1.1 * pulls[0] > 1.1 * PULL

@@ -81,7 +81,7 @@ def test_trailing_edge_of_a_sliding_sphere():
 
 @pytest.mark.parametrize(
     "case",
-    quick(DATA["spheres"], 0, 2, long=[1, 3]),
+    quick(DATA["spheres"], 0, long=[1, 2, 3]),
     ids=[case["name"] for case in DATA["spheres"]],
 )
 def test_stress_under_a_sphere_on_layers(case):

