@@ -277,7 +277,9 @@ def test_the_largest_stress_is_that_of_the_table(layered, name, friction):
     assert found.layer == wanted["material"]
 
 
-@pytest.mark.parametrize("name", [n for n, case in SPHERES.items() if case["samples"]][:3])
+@pytest.mark.parametrize(
+    "name", quick([n for n, case in SPHERES.items() if case["samples"]][:3], 1)
+)
 def test_stresses_at_points_are_those_of_the_table(name):
     """On both faces of an interface too: pixels of a0/20, so that the points lie on pixels."""
     case = SPHERES[name]

@@ -560,7 +560,7 @@ def room(name):
 
 @functools.cache
 def examples_in(name):
-    """Docstrings of a module that hold examples; nine of ten hold none, and cost 1 ms each to run."""
+    """Docstrings of a module that hold examples; nine of ten hold none, and cost 1 ms each."""
     return [t for t in doctest.DocTestFinder().find(importlib.import_module(name)) if t.examples]
 
 

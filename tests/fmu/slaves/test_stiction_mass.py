@@ -83,14 +83,18 @@ def test_the_release_cases_are_met(host, release_cases, name, rtol):
 
 @pytest.mark.parametrize(
     "changes",
-    [
-        {},
-        {"h0": 10e-9, "R": 0.5e-3, "V": math.pi * 0.5e-3**2 * 10e-9},
-        {"h0": 100e-6, "h_rel": 400e-6},
-        {"eta": 1e-4},
-        {"eta": 1e2, "h0": 20e-6, "dp_cav": 1e6},
-        {"N": 100_000},
-    ],
+    quick(
+        [
+            {},
+            {"h0": 10e-9, "R": 0.5e-3, "V": math.pi * 0.5e-3**2 * 10e-9},
+            {"h0": 100e-6, "h_rel": 400e-6},
+            {"eta": 1e-4},
+            {"eta": 1e2, "h0": 20e-6, "dp_cav": 1e6},
+            {"N": 100_000},
+        ],
+        0,
+        4,
+    ),
     ids=["5 um", "10 nm", "100 um", "thin oil", "pitch", "1e5 menisci"],
 )
 def test_the_release_time_does_not_depend_on_the_communication_step(host, changes):
