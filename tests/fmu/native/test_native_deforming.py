@@ -240,6 +240,33 @@ def test_derivatives_and_states(beta, force):
 
 
 @pytest.mark.slow
+def test_a_mass_outside_is_coupled_by_newton_with_the_derivatives(shelf, open_fmu, force):
+    """In steps of 10 m/c, where an exchange of forces diverges, as with the mass inside."""
+    mass, pull, length = 1e-2, damping(GAP) * SPEED, 2e-3
+    made, rings = scene(0.5, 4e-6, force=pull, mass=mass), {"film_rtol": 12.0 / 24.0**2}
+    inside = open_fmu(shelf(build_native, made, **rings, **ONE)).start(F_ext=pull)
+    host = force(made, **rings)
+    gap, speed, most = GAP, 0.0, 0
+    for k in range(20):
+        state, end = host.slave.getFMUState(), speed
+        for count in range(1, 13):
+            host.slave.setFMUState(state)
+            host.set(h=gap + 0.5 * length * (speed + end), v=end)
+            assert host.step(length, k * length) == OK
+            missing = mass * (end - speed) / length - pull + host.get("F_mean")
+            change = missing / (mass / length + host.get("c") + 0.5 * length * host.get("k"))
+            end -= change
+            most = max(most, count)
+            if abs(change) < 1e-6 * SPEED:
+                break
+        gap, speed = gap + 0.5 * length * (speed + end), end
+        assert inside.step(length) == OK
+        # What is left is the parabola across the jump of the speed in the first step.
+        assert gap == pytest.approx(inside.get("h"), rel=2e-2)
+    assert most < 10
+
+
+@pytest.mark.slow
 def test_beyond_its_range_a_step_is_discarded(force):
     """Pressed too hard for the spring, nothing has changed, and a gentler step goes on."""
     host = force(scene(0.015))
