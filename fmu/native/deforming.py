@@ -17,7 +17,7 @@ from attrs import evolve
 from ...errors import DescriptionError, PlanError
 from ...lubrication.elastohydrodynamic.mesh import RingMesh, disc_nodes, graded_nodes
 from ...lubrication.elastohydrodynamic.motion import SmoothGap
-from ...scene.loading import ImposedForce
+from ...scene.loading import ImposedForce, ImposedSpeed, PressAndPull
 from ...scene.scenes import SeparationScene
 from ...separation.deforming.effects import ElasticBodies, SolidContact
 from ...separation.deforming.maxwell import HOLDS_TO, series_error, series_stiffness
@@ -141,14 +141,12 @@ def deforming_film(
     """
     made, beta = _planned(scene)
     film, exactness = made.film, _exactness(made, beta, film_rtol, mass)
-    is_flat = math.isinf(film.radius)
     stiffness = _stiffness(made)
     bodies = Bodies(
         gap=film.gap,
         stiffness=stiffness,
-        widens=not is_flat,
-        # beta of a force F is F/(6 pi E* w h) under a sphere, F/(1.5 pi E* w h) under a flat.
-        ratio=stiffness / ((1.5 if is_flat else 6.0) * math.pi * made.modulus * film.width),
+        widens=math.isfinite(film.radius),
+        ratio=stiffness * film.gap / _unit_force(made),
         series=_series(scene, film.viscosity) if exactness.film == "series" else None,
         rings=_rings(film, made.modulus, exactness.rings) if exactness.film == "rings" else None,
     )
@@ -162,8 +160,10 @@ def _planned(scene: SeparationScene) -> tuple[DeformingPlan, float | None]:
     if isinstance(loading, ImposedForce) and loading.force <= 0.0:
         # The pull is an input of an FMU, and may be 0 in its scene.
         return plan_deforming(evolve(scene, loading=evolve(loading, force=1.0))), None
-    made = plan_deforming(scene)
-    return made, made.numbers.beta
+    made, pressed = plan_deforming(scene), 0.0
+    if isinstance(loading, PressAndPull):
+        pressed = loading.press / _unit_force(made)
+    return made, max(made.numbers.beta, pressed)
 
 
 def _check(scene: SeparationScene) -> None:
@@ -211,6 +211,13 @@ def _has_spring(made: DeformingPlan, mass: float | None) -> bool:
     )
 
 
+def _unit_force(made: DeformingPlan) -> float:
+    """Force of a film at beta = 1 [N]: 6 pi E* w h under a sphere, 1.5 pi E* w h under a flat."""
+    film = made.film
+    part = 1.5 if math.isinf(film.radius) else 6.0
+    return part * math.pi * made.modulus * film.width * film.gap
+
+
 def _stiffness(made: DeformingPlan) -> float:
     return series_stiffness(made.film.radius, made.film.width, made.modulus)
 
@@ -253,8 +260,10 @@ def _as_rings(made: DeformingPlan, beta: float | None, asked: float) -> Exactnes
 def _series(scene: SeparationScene, viscosity: float) -> Series:
     """Damping of the film between rigid bodies."""
     effects = tuple(one for one in scene.effects if not isinstance(one, ElasticBodies))
-    rigid = plan(evolve(scene, effects=effects), FINE).film
     gap, final = scene.loading.initial_gap, scene.loading.final_gap
+    # Any loading that rigid bodies may have: none is in the damping.
+    opens = ImposedSpeed(speed=gap, initial_gap=gap, final_gap=final)  # [m/s], in 1 s
+    rigid = plan(evolve(scene, effects=effects, loading=opens), FINE).film
     edges = (_LOWEST * gap, _FAR * final)
     return Series(damping=tabulate(lambda h: rigid.damping(h) / viscosity, edges))
 

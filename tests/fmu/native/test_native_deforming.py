@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
+import attrs
 import numpy as np
 import pytest
 from native_scenes import HAS_CC
@@ -17,7 +18,7 @@ if not HAS_CC:
 import contactkit as ck  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
 from contactkit.fmu.native.build import build_native  # noqa: E402
-from contactkit.fmu.native.deforming import exactness_of  # noqa: E402
+from contactkit.fmu.native.deforming import deforming_film, exactness_of  # noqa: E402
 from contactkit.fmu.python.build import validate  # noqa: E402
 from contactkit.lubrication.elastohydrodynamic import motion  # noqa: E402
 from contactkit.separation.deforming.maxwell import (  # noqa: E402
@@ -331,6 +332,13 @@ def test_the_film_that_is_taken_and_its_error():
     still = scene(0.01, force=0.0, mass=1e-3)
     assert exactness_of(still).beta is None
     assert exactness_of(still).film == "rings"
+    # A press may deform the bodies more than the pull.
+    press = ck.PressAndPull(press=1e-6, rest=0.1, speed=SPEED, initial_gap=GAP, final_gap=3e-6)
+    pressed = attrs.evolve(scene(0.01), loading=press)
+    assert exactness_of(pressed).film == "series"
+    assert deforming_film(pressed).bodies.series is not None
+    harder = attrs.evolve(press, press=1e-3)
+    assert exactness_of(attrs.evolve(pressed, loading=harder)).film == "rings"
     layer = ck.Layer(material=SOFT, thickness=WIDTH)
     coated = scene(1e-3, solid=ck.Stack(layers=(layer,), substrate=ck.RigidBase(bonded=True)))
     assert exactness_of(coated).film == "rings"  # the spring of a layer is not known
