@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from attrs import evolve
 
@@ -14,9 +13,7 @@ from ..contact.effects.friction import FrictionTraction
 from ..errors import ConvergenceError
 from ..planning import plan
 from ..scene.scenes import ContactScene
-
-if TYPE_CHECKING:
-    from ..contact.result import ContactResult
+from .timing import timed
 
 __all__ = ["EffectCost", "effect_costs"]
 
@@ -24,7 +21,7 @@ Progress = Callable[[float], None]
 
 
 class EffectCost(NamedTuple):
-    """Seconds and operator applications of a scene with the effects up to this one."""
+    """CPU seconds and operator applications of a scene with the effects up to this one."""
 
     name: str
     seconds: float
@@ -36,13 +33,15 @@ def effect_costs(
     scene: ContactScene, accuracy: Accuracy, progress: Progress
 ) -> tuple[EffectCost, ...]:
     """Seconds of the scene with its effects one after another, the compliance first."""
+    from ..contact.solve import solve_unwarned
+
     order = sorted(scene.effects, key=_rank)
     found = []
     for i in range(1, len(order) + 1):
         some = evolve(scene, effects=tuple(order[:i]))
         name = ("" if i == 1 else "+ ") + order[i - 1].name
         try:
-            best, result = _best_of_two(some, accuracy)
+            result, best = timed(lambda some=some: solve_unwarned(plan(some, accuracy)))
         except ConvergenceError as error:
             found.append(EffectCost(name, float("nan"), 0, str(error).split(";")[0]))
         else:
@@ -54,14 +53,3 @@ def effect_costs(
 def _rank(effect: object) -> int:
     ranks = (Compliance, PressureBound, FrictionTraction, DisplacementTerm)
     return next((i for i, kind in enumerate(ranks) if isinstance(effect, kind)), len(ranks))
-
-
-def _best_of_two(scene: ContactScene, accuracy: Accuracy) -> tuple[float, ContactResult]:
-    from ..contact.solve import solve_unwarned
-
-    seconds = []
-    for _ in range(2):
-        begun = time.perf_counter()
-        result = solve_unwarned(plan(scene, accuracy))
-        seconds.append(time.perf_counter() - begun)
-    return min(seconds), result
