@@ -92,7 +92,7 @@ class WorkPrecision:
             rows.append(
                 f"{p.method:34s} {p.label:16s} {error} {p.seconds:9.4f}  {p.problem or counts}"
             )
-        rows.append("seconds: CPU time of the process, the least where a setting ran more than once")
+        rows.append("seconds: CPU time of the process, the least where a setting ran repeatedly")
         rows.append(
             f"relative error of the {self.quantity} against "
             f"{self.judge or f'{self.reference:.10g}'}, known to {self.floor:.0e}"

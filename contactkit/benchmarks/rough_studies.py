@@ -76,10 +76,6 @@ def rough_steel(*effects: Any, solid: Any = None, pressure: float = 2e8) -> Cont
 
 
 def methods() -> list[Point]:
-    """Error of the pressure map of a rough contact over the tolerance, by method; CPU seconds."""
-
-
-def methods() -> list[Point]:
     """Error of the pressure map of a rough contact over the tolerance, by method."""
     return list(
         solver_sweep(rough_steel(HalfSpace()), Accuracy(grid=256), lambda done: None).points
@@ -202,7 +198,7 @@ def stacks() -> list[Point]:
         results, seconds, errors = zip(*found, strict=True)
         most = max(one.work.n_operator_applications for one in results)
         work = {"convolutions": most}
-        points.append(Point("six contacts", name, max(errors), float(np.mean(seconds)), work))
+        points.append(Point(name, "six contacts", max(errors), float(np.mean(seconds)), work))
     return points
 
 

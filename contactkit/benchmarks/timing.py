@@ -20,7 +20,7 @@ from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 if TYPE_CHECKING:
     AnyScene = ContactScene | SeparationScene | SlidingScene
 
-__all__ = ["PRESETS", "Cost", "best_of", "cost", "counts", "cpu_seconds", "run", "timed"]
+__all__ = ["PRESETS", "Cost", "cost", "counts", "cpu_seconds", "run", "timed"]
 
 _T = TypeVar("_T")
 
@@ -33,6 +33,9 @@ PRESETS = {
 
 # Long enough for the clock of the process, whose step is up to 10 ms on some systems.
 _SHORTEST = 0.02  # [s]
+
+REPEATS = 20
+"""Most repetitions of a run that is timed; the least of so many is stable to some per cent."""
 
 
 class Cost(NamedTuple):
@@ -66,7 +69,7 @@ def cost(scene: AnyScene, accuracy: Accuracy) -> tuple[Cost, Any]:
     return Cost(seconds, peak / 2**20, counts(result)), result
 
 
-def timed(work: Callable[[], _T], budget: float = 1.0) -> tuple[_T, float]:
+def timed(work: Callable[[], _T], budget: float = 0.3) -> tuple[_T, float]:
     """Result of a run, and the least CPU time of it and of repetitions within a budget [s].
 
     A run longer than half the budget is not repeated: what it does once weighs little there.
@@ -74,21 +77,11 @@ def timed(work: Callable[[], _T], budget: float = 1.0) -> tuple[_T, float]:
     begun = time.process_time()
     found = work()
     best = time.process_time() - begun
-    for _ in range(min(20, int(budget / max(best, 1e-6)) - 1)):
+    for _ in range(min(REPEATS, int(budget / max(best, 1e-6)) - 1)):
         begun = time.process_time()
         found = work()
         best = min(best, time.process_time() - begun)
     return found, best
-
-
-def best_of(work: Callable[[], _T], repeats: int = 3) -> tuple[_T, float]:
-    """Result of a run after one untimed, and the least CPU time of the process over some [s]."""
-    found, seconds = work(), math.inf
-    for _ in range(repeats):
-        begun = time.process_time()
-        found = work()
-        seconds = min(seconds, time.process_time() - begun)
-    return found, seconds
 
 
 def cpu_seconds(work: Callable[[], Any], repeats: int = 3) -> float:
@@ -96,6 +89,8 @@ def cpu_seconds(work: Callable[[], Any], repeats: int = 3) -> float:
     begun = time.process_time()
     work()
     first = time.process_time() - begun
+    if REPEATS == 0:
+        return first
     inner = max(1, min(1000, math.ceil(_SHORTEST / max(first, 1e-6))))
     best = math.inf
     for _ in range(repeats):
