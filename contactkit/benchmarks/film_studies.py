@@ -18,7 +18,11 @@ from ..fmu.framework.instance import Instance
 from ..fmu.framework.toolchain import local
 from ..fmu.native.build import build_native
 from ..liquids.liquid import Liquid
-from ..lubrication import reynolds
+from ..lubrication.reynolds import damping
+from ..lubrication.reynolds.face import Hole, Pocket, face_from_mask, rasterise
+from ..lubrication.reynolds.film import GridFilm
+from ..lubrication.reynolds.gaps import gap_map
+from ..lubrication.reynolds.solve import at_rest, solve_pressure, step_film
 from ..scene.faces import Recess
 from ..scene.interface import Interface
 from ..scene.loading import ImposedForce
@@ -43,58 +47,58 @@ Made = Callable[[int], tuple[Any, Any]]  # face and gap on a number of cells
 
 
 def _even(shape: Any, *holes: Any) -> Made:
-    return lambda n: (reynolds.rasterise(shape, n, holes=holes), _GAP)
+    return lambda n: (rasterise(shape, n, holes=holes), _GAP)
 
 
 def _masked(n: int) -> tuple[Any, Any]:
-    face = reynolds.rasterise(_DISC, n)
-    return reynolds.face_from_mask(face.inside, face.pixel_size), _GAP
+    face = rasterise(_DISC, n)
+    return face_from_mask(face.inside, face.pixel_size), _GAP
 
 
 def _mapped(n: int, **shape: Any) -> tuple[Any, Any]:
-    face = reynolds.rasterise(_DISC, n)
-    return face, reynolds.gap_map(face, _GAP, **shape)
+    face = rasterise(_DISC, n)
+    return face, gap_map(face, _GAP, **shape)
 
 
 def _faces() -> dict[str, tuple[Made, Any]]:
     """Faces and their laws in closed form."""
-    small = reynolds.Hole(shape=Disc(radius=0.01 * _R))
-    pocket = reynolds.Pocket(shape=Disc(radius=0.5 * _R))
+    small = Hole(shape=Disc(radius=0.01 * _R))
+    pocket = Pocket(shape=Disc(radius=0.5 * _R))
     recess = [Recess(shape=Disc(radius=1.5e-3), depth=3.0 * _GAP)]
     ring = Ring(radius=_R, hole_radius=0.3 * _R)
     half = _R / 1.5
     return {
-        "disc": (_even(_DISC), reynolds.disc_damping(_R)),
-        "disc, from a mask": (_masked, reynolds.disc_damping(_R)),
-        "ring, hole 0.3 R vented": (_even(ring), reynolds.ring_damping(_R, 0.3 * _R)),
-        "ring, hole 0.01 R vented": (_even(_DISC, small), reynolds.ring_damping(_R, 0.01 * _R)),
+        "disc": (_even(_DISC), damping.disc_damping(_R)),
+        "disc, from a mask": (_masked, damping.disc_damping(_R)),
+        "ring, hole 0.3 R vented": (_even(ring), damping.ring_damping(_R, 0.3 * _R)),
+        "ring, hole 0.01 R vented": (_even(_DISC, small), damping.ring_damping(_R, 0.01 * _R)),
         "ring, hole 0.5 R sealed": (
             _even(_DISC, pocket),
-            reynolds.ring_damping(_R, 0.5 * _R, is_sealed=True),
+            damping.ring_damping(_R, 0.5 * _R, is_sealed=True),
         ),
         "square": (
             _even(Rectangle(length=_SIDE, width=_SIDE)),
-            reynolds.rectangle_damping(_SIDE, _SIDE),
+            damping.rectangle_damping(_SIDE, _SIDE),
         ),
         "rectangle 2:1": (
             _even(Rectangle(length=2 * _SIDE, width=_SIDE)),
-            reynolds.rectangle_damping(2 * _SIDE, _SIDE),
+            damping.rectangle_damping(2 * _SIDE, _SIDE),
         ),
         "ellipse 1.5:1": (
             _even(Ellipse(semi_axes=(_R, half))),
-            reynolds.ellipse_damping((_R, half)),
+            damping.ellipse_damping((_R, half)),
         ),
         "equilateral triangle": (
             _even(equilateral_triangle(_SIDE)),
-            reynolds.triangle_damping(_SIDE),
+            damping.triangle_damping(_SIDE),
         ),
         "disc under a dome": (
             partial(_mapped, dome_radius=_DOME),
-            reynolds.dome_damping(_R, _DOME),
+            damping.dome_damping(_R, _DOME),
         ),
         "disc with a recess of 3 h": (
             partial(_mapped, recesses=recess),
-            reynolds.recess_damping(_R, 1.5e-3, 3.0 * _GAP),
+            damping.recess_damping(_R, 1.5e-3, 3.0 * _GAP),
         ),
     }
 
@@ -106,8 +110,8 @@ def planforms() -> list[Point]:
         exact = law.force(_GAP, _RATE, _OIL)
         for n in _CELLS:
             face, gap = made(n)
-            film = reynolds.GridFilm(face=face, viscosity=_OIL)
-            solve = partial(reynolds.solve_pressure, film, gap, _RATE)
+            film = GridFilm(face=face, viscosity=_OIL)
+            solve = partial(solve_pressure, film, gap, _RATE)
             found, seconds = timed(solve, 0.3)
             counts = {"unknowns": int(face.inside.sum())}
             error = abs(found.force / exact - 1.0)
@@ -132,10 +136,10 @@ def cavities() -> list[Point]:
     for sigma in (1.5, 3.0, 30.0, 300.0):
         exact = _cavitated_force(sigma) * math.pi * _R**2 * drop
         for n in _CELLS:
-            film = reynolds.GridFilm(face=reynolds.rasterise(_DISC, n), viscosity=_OIL, drop=drop)
-            speed = sigma * reynolds.disc_damping(_R).onset_speed(gap, drop, _OIL)
-            rest = reynolds.at_rest(film, gap)
-            step = partial(reynolds.step_film, rest, gap + speed * 1e-12, 1e-12)
+            film = GridFilm(face=rasterise(_DISC, n), viscosity=_OIL, drop=drop)
+            speed = sigma * damping.disc_damping(_R).onset_speed(gap, drop, _OIL)
+            rest = at_rest(film, gap)
+            step = partial(step_film, rest, gap + speed * 1e-12, 1e-12)
             state, seconds = timed(step, 0.3)
             method, counts = f"{sigma:g} times the onset", {"Newton steps": state.iterations}
             error = abs(state.force / exact - 1.0)

@@ -32,7 +32,7 @@ from ..scene.scenes import ContactScene
 from ..scene.surfaces import Paraboloid, Wave
 from ..scene.window import Window
 from ..work_precision import Point
-from .references import reference
+from .references.tables import reference
 from .timing import timed
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from ..scene.scenes import SeparationScene
 from ..scene.surfaces import Flat
 from ..separation.effects.meniscus import AsPublished, MeniscusForce
 from ..separation.effects.viscous import TensionLimit, ViscousForce
-from .references import reference
+from .references.tables import reference
 
 __all__ = ["release_cases", "release_scene"]
 

@@ -10,7 +10,7 @@ from scipy.special import ellipe, ellipk
 from selection import quick
 
 import contactkit as ck
-from contactkit.benchmarks.references import reference
+from contactkit.benchmarks.references.tables import reference
 from contactkit.reference import hamilton, hertz
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")

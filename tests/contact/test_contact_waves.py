@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.benchmarks.references import reference
+from contactkit.benchmarks.references.tables import reference
 from contactkit.reference import layered_wave, product_wave, westergaard
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactkit.benchmarks.references import reference
+from contactkit.benchmarks.references.tables import reference
 from contactkit.elasticity.layer_stack import small_wavenumber_constant, uniform_compliance
 from contactkit.elasticity.layered import (
     compliance,

@@ -10,7 +10,7 @@ from numpy.polynomial import polynomial
 from scipy.interpolate import RectBivariateSpline
 from selection import quick
 
-from contactkit.benchmarks.references import reference
+from contactkit.benchmarks.references.tables import reference
 from contactkit.elasticity.layer_stack import Layers
 from contactkit.elasticity.stress.maxima import (
     DepthSearch,

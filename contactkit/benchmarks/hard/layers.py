@@ -12,7 +12,7 @@ from scipy.linalg import expm, null_space
 
 from ...contact.solver.contact_solver import ContactSolver
 from ...elasticity import layered
-from ..references import reference
+from ..references.tables import reference
 from .case import Found
 from .contacts import gradient, polonsky_keer, rough, violation
 

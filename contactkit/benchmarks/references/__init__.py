@@ -1,29 +1,8 @@
 """Reference solutions of studies, hard cases and tests, computed by other means: files of JSON.
 
-releases  Release times by two other codes that agree to 1e-9.
-layered   Compliances and stresses of layered half-spaces, of 60 digits.
-contact   Spheres on layered solids, and waves of one direction in partial contact.
+tables  Content of the files of reference solutions.
+
+releases.json  Release times by two other codes that agree to 1e-9.
+layered.json   Compliances and stresses of layered half-spaces, of 60 digits.
+contact.json   Spheres on layered solids, and waves of one direction in partial contact.
 """
-
-from __future__ import annotations
-
-from functools import cache
-from pathlib import Path
-from typing import Any
-
-from ...reading.texts import from_json
-
-__all__ = ["reference"]
-
-
-@cache
-def reference(name: str) -> Any:
-    """Content of a file of reference solutions.
-
-    Examples
-    --------
-    >>> sorted(reference("releases"))
-    ['A', 'B', 'D', 'E']
-    """
-    path = Path(__file__).with_name(f"{name}.json")
-    return from_json(path.read_text("utf-8"), path.name)
