@@ -116,7 +116,8 @@ def sweep(
     ----------
     settings : sequence of Setting
         Settings to run. Each runs once untimed, then up to `repeats` times within `budget` [s];
-        the least CPU time of the process counts. With no repeats the first run counts.
+        the least CPU time of the process counts. With no repeats, or where it takes
+        longer than the budget, the first run counts.
     reference : float
         Reference value, from a closed form or a method other than those compared.
     quantity : str
@@ -141,11 +142,9 @@ def _measure(setting: Setting, reference: float, repeats: int, budget: float) ->
         return Point(
             setting.method, setting.label, math.nan, math.nan, {}, reason, setting.is_model
         )
-    best = math.inf
     warm = process_time() - begun
-    if repeats == 0:
-        best = warm
-    for _ in range(repeats):
+    best = warm if repeats == 0 or warm > budget else math.inf
+    for _ in range(repeats if warm <= budget else 0):
         start = process_time()
         if start - begun + min(best, warm) > budget and best < math.inf:
             break

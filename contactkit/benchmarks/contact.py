@@ -155,7 +155,9 @@ def solver_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) ->
             )
             for rtol in tolerances
         ]
-    return sweep(settings, size, quantity="pressure map", floor=floor, repeats=0, progress=progress)
+    return sweep(
+        settings, size, quantity="pressure map", floor=floor, budget=0.5, progress=progress
+    )
 
 
 def _frozen(scene: ContactScene, accuracy: Accuracy) -> tuple[ContactScene, Accuracy]:

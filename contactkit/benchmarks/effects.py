@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
 
 from attrs import evolve
 
@@ -14,6 +15,9 @@ from ..errors import ConvergenceError
 from ..planning import plan
 from ..scene.scenes import ContactScene
 from .timing import timed
+
+if TYPE_CHECKING:
+    from ..contact.result import ContactResult
 
 __all__ = ["EffectCost", "effect_costs"]
 
@@ -33,15 +37,13 @@ def effect_costs(
     scene: ContactScene, accuracy: Accuracy, progress: Progress
 ) -> tuple[EffectCost, ...]:
     """Seconds of the scene with its effects one after another, the compliance first."""
-    from ..contact.solve import solve_unwarned
-
     order = sorted(scene.effects, key=_rank)
     found = []
     for i in range(1, len(order) + 1):
         some = evolve(scene, effects=tuple(order[:i]))
         name = ("" if i == 1 else "+ ") + order[i - 1].name
         try:
-            result, best = timed(lambda some=some: solve_unwarned(plan(some, accuracy)))
+            result, best = timed(partial(_solved, some, accuracy))
         except ConvergenceError as error:
             found.append(EffectCost(name, float("nan"), 0, str(error).split(";")[0]))
         else:
@@ -53,3 +55,9 @@ def effect_costs(
 def _rank(effect: object) -> int:
     ranks = (Compliance, PressureBound, FrictionTraction, DisplacementTerm)
     return next((i for i, kind in enumerate(ranks) if isinstance(effect, kind)), len(ranks))
+
+
+def _solved(scene: ContactScene, accuracy: Accuracy) -> ContactResult:
+    from ..contact.solve import solve_unwarned
+
+    return solve_unwarned(plan(scene, accuracy))

@@ -21,7 +21,6 @@ from ..contact.effects.elasticity import HalfSpace, LayeredHalfSpace
 from ..contact.effects.hardness_rules import ConstantHardness
 from ..contact.effects.plasticity import HardnessLimit
 from ..contact.effects.stress import SubsurfaceStress
-from ..contact.grid import realise
 from ..contact.solve import solve_unwarned
 from ..files.scenes import load_liquid, load_material, read_scene, read_tables
 from ..models.library import bundled_scene
@@ -33,6 +32,7 @@ from ..scene.materials import Layer, Material, Stack
 from ..scene.meniscus import Meniscus
 from ..scene.rough_surfaces import GaussianRoughness, SelfAffineRoughness
 from ..scene.scenes import ContactScene
+from ..scene.surfaces import realise
 from ..scene.window import Grid, Window
 from ..work_precision import Point
 from .contact import grid_sweep, solver_sweep
@@ -283,7 +283,7 @@ def curve() -> list[Point]:
     names = {"approach": "approach", "max_pressure": "maximum pressure"}
     points: dict[str, list[Point]] = {name: [] for name in names}
     for rtol in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8):
-        one, seconds = timed(partial(load_curve, prepared, pressures=pressures, rtol=rtol))
+        one, seconds = timed(partial(load_curve, prepared, pressures=pressures, rtol=rtol), 1.0)
         work = {"convolutions": int(one.applications.sum())}
         for name, label in names.items():
             error = float(np.abs(one[name] / best[name] - 1.0).max())

@@ -167,4 +167,5 @@ def _bridges(scene: SeparationScene, gaps: Any) -> Any:
     shape = (*angles, *interface.curvatures)
     if pressure is not None:
         return tension * bridge_at_pressure(gaps, pressure / tension, *shape).force
+    assert meniscus.volume is not None
     return tension * bridge(gaps, meniscus.volume, *shape).force

@@ -51,6 +51,8 @@ class AccuracyStudy:
         Other bounds, by method.
     floor : float
         Relative error of the reference itself [-].
+    digits : str
+        Method whose settings are tolerances, grids or steps: its slope is what a digit costs.
     note : str
         What a reader of the table has to know besides.
     """
@@ -65,6 +67,7 @@ class AccuracyStudy:
     holds: float
     holds_of: Mapping[str, float] = field(factory=dict)
     floor: float = 1e-12
+    digits: str = ""
     note: str = ""
 
     def points(self) -> list[Point]:
@@ -104,6 +107,7 @@ _CONTACT = (
         judge="the active-set method at 1e-11; steel under a rough flat, 256 x 256 pixels",
         solvers=("solve", "active-set", "conjugate-gradient", "quasi-newton"),
         measured_by="benchmarks.rough_studies:methods",
+        digits="active-set",
         holds=1e-10,
         holds_of={"conjugate-gradient": 1e-7, "quasi-newton": 1e-2},
     ),
@@ -115,6 +119,7 @@ _CONTACT = (
         judge="the same at 1e-11, on the grid of the scene; compliance and hardness alone",
         solvers=("solve", "head-disk", "contact-stop", "tip-landing"),
         measured_by="benchmarks.rough_studies:presets",
+        digits="head-disk",
         holds=1e-9,
         note="The pressures of `tip-landing` are the same to the last bit: 99 % of the pixels in "
         "contact are at the hardness.",
@@ -161,6 +166,7 @@ _CONTACT = (
         judge="the edge-corrected area on 1024 x 1024 pixels",
         solvers=("solve",),
         measured_by="benchmarks.rough_studies:area",
+        digits="pixel count",
         holds=5e-3,
         holds_of={"pixel count": 0.05},
         floor=1e-3,
@@ -185,6 +191,7 @@ _CONTACT = (
         judge="the same at 1e-10",
         solvers=("load_curve", "study"),
         measured_by="benchmarks.rough_studies:curve",
+        digits="maximum pressure",
         holds=1e-8,
         floor=1e-10,
     ),
@@ -196,6 +203,7 @@ _CONTACT = (
         judge="Hertz; the contact radius follows from the pixel count",
         solvers=("solve",),
         measured_by="benchmarks.contact_studies:hertzian",
+        digits="maximum pressure",
         holds=1e-5,
         holds_of={"contact radius": 3e-3},
     ),
@@ -207,6 +215,7 @@ _CONTACT = (
         judge="Hertz; 384 x 384 pixels",
         solvers=("press",),
         measured_by="benchmarks.contact_studies:lines",
+        digits="cylinder, one-axis window",
         holds=1e-4,
     ),
     AccuracyStudy(
@@ -274,6 +283,7 @@ _CONTACT = (
         judge="planes a nanometre apart; seconds with those of the contact",
         solvers=("subsurface-stress",),
         measured_by="benchmarks.layered_studies:depths",
+        digits="von_mises",
         holds=5e-4,
     ),
     AccuracyStudy(
@@ -284,6 +294,7 @@ _CONTACT = (
         judge="Mindlin; over the tolerance against 1e-12",
         solvers=("partial-slip",),
         measured_by="benchmarks.contact_studies:slip",
+        digits="tolerance at 64 x 64",
         holds=1e-4,
         holds_of={"tolerance at 64 x 64": 1e-9},
     ),
@@ -295,6 +306,7 @@ _CONTACT = (
         judge="64 steps",
         solvers=("partial-slip",),
         measured_by="benchmarks.contact_studies:coupled",
+        digits="tractions, rms",
         holds=0.02,
         floor=1e-4,
     ),
@@ -306,6 +318,7 @@ _CONTACT = (
         judge="Maugis and Dugdale; seconds of the whole curve",
         solvers=("pull_off_curve", "adhesion"),
         measured_by="benchmarks.contact_studies:adhesion",
+        digits="Maugis parameter 1",
         holds=1e-2,
         note="With a Maugis parameter of 5 the range of the attraction is resolved from 128 x 128 "
         "pixels on; the trapping number, which a result prints, says so.",
@@ -318,6 +331,7 @@ _CONTACT = (
         judge="balance of work and energy; the loss in one step",
         solvers=("plastic-history", "hardness-limit"),
         measured_by="benchmarks.contact_studies:history",
+        digits="work of the load, trapezoids",
         holds=3e-3,
         holds_of={"plastic work": 1e-8},
     ),
@@ -332,6 +346,7 @@ _SEPARATION = (
         judge="a monolithic solution by scipy at 1e-11",
         solvers=("simulate",),
         measured_by="benchmarks.separation_studies:film",
+        digits="contactkit motion",
         holds=1e-9,
         floor=1e-10,
     ),
@@ -343,6 +358,7 @@ _SEPARATION = (
         judge="two other codes that agree to 1e-9, E to 3e-8 (`contactkit/benchmarks/references`)",
         solvers=("simulate", "advance"),
         measured_by="benchmarks.separation_studies:releases",
+        digits="case B",
         holds=1e-9,
         floor=1e-9,
     ),
@@ -354,6 +370,7 @@ _SEPARATION = (
         judge="the same two codes; `stiction-mass` in fmpy, whole runs",
         solvers=("stiction-mass",),
         measured_by="benchmarks.separation_studies:fmu_releases",
+        digits="case B",
         holds=3e-7,
         floor=1e-9,
         note="The pull of A and D is constant. That of B and E is a curve, which the host gives as "
@@ -398,6 +415,7 @@ _SEPARATION = (
         judge="closed forms",
         solvers=("simulate", "viscous-force"),
         measured_by="benchmarks.film_studies:planforms",
+        digits="disc under a dome",
         holds=5e-4,
     ),
     AccuracyStudy(
@@ -408,6 +426,7 @@ _SEPARATION = (
         judge="the exact edge of the cavity",
         solvers=("simulate", "tension-limit"),
         measured_by="benchmarks.film_studies:cavities",
+        digits="3 times the onset",
         holds=3e-4,
     ),
     AccuracyStudy(
@@ -418,6 +437,7 @@ _SEPARATION = (
         judge="the exact edge of a disc; steps of 10 us",
         solvers=("fmu-native",),
         measured_by="benchmarks.film_studies:native",
+        digits="native FMU",
         holds=1e-3,
     ),
     AccuracyStudy(
@@ -428,6 +448,7 @@ _SEPARATION = (
         judge="a monolithic solution by scipy at 1e-11; each setting is run once",
         solvers=("fuel-injector", "advance"),
         measured_by="models.injector.report.cost:release_study",
+        digits="FMU pair, pull a straight line",
         holds=1e-6,
         holds_of={"FMU pair, pull held": 5e-3},
         floor=1e-10,
@@ -443,6 +464,7 @@ _SEPARATION = (
         judge="a monolithic solution by scipy at 1e-10",
         solvers=("micromirror",),
         measured_by="models.micromirror.report.cost:release_study",
+        digits="tips in this process",
         holds=1e-8,
         floor=1e-9,
     ),

@@ -140,7 +140,9 @@ def digit(points: Points, method: str) -> float:
 
 def _costs(factor: float) -> str:
     """A factor of the CPU time in words."""
-    return f"{100.0 * (factor - 1.0):.0f} %" if factor < 1.95 else f"{factor:.1f} times"
+    if factor < 1.95:
+        return f"{max(100.0 * (factor - 1.0), 0.0):.0f} % more"
+    return f"{factor:.0f} times" if factor > 9.5 else f"{factor:.1f} times"
 
 
 def _span(points: Points, method: str) -> str:
@@ -157,7 +159,7 @@ def _contact(studies: Mapping[str, Points]) -> str:
     rough, sphere = studies["contact-methods"], studies["hertz"]
     return (
         "**Contact: a digit more of the pressure of a rough contact costs "
-        f"{_costs(digit(rough, 'active-set'))} more CPU time** on its grid "
+        f"{_costs(digit(rough, 'active-set'))} CPU time** on its grid "
         f"({_span(rough, 'active-set')}, 256 x 256 pixels); a digit more against the exact "
         "solution is bought with pixels, at "
         f"{_costs(digit(sphere, 'maximum pressure'))} the CPU time "
@@ -169,7 +171,7 @@ def _separation(studies: Mapping[str, Points]) -> str:
     film, grid = studies["film"], studies["film-faces"]
     return (
         "**Separation: a digit more of the release time of a film costs "
-        f"{_costs(digit(film, 'contactkit motion'))} more CPU time** "
+        f"{_costs(digit(film, 'contactkit motion'))} CPU time** "
         f"({_span(film, 'contactkit motion')}); where the film is on a grid, a digit more of its "
         f"force costs {_costs(digit(grid, 'disc under a dome'))} the CPU time "
         f"({_span(grid, 'disc under a dome')})."
@@ -190,10 +192,11 @@ def page(data: Mapping[str, Any]) -> str:
         "*Error* is relative, against the solution that each study names; it is that of the "
         "numerics. Whether a model holds is another matter: each result prints its ranges of "
         "validity. *CPU seconds* are those of the process on one thread. A digit's cost is the "
-        "slope of the logarithms over all settings of a method.",
+        "slope of the logarithms over all settings of a method; where there is none the settings "
+        "are solids, shapes or sizes.",
         "## All studies",
         table(
-            ("study", "loosest setting", "tightest setting", "a digit more costs"),
+            ("study", "largest error", "least error", "a digit more costs"),
             (_summary(one, studies[name]) for name, one in STUDIES.items()),
         ),
         "A study is `contactkit cost NAME`, with the names of "
@@ -224,20 +227,18 @@ def _seconds(value: float | None) -> str:
 
 
 def _summary(study: AccuracyStudy, points: Points) -> tuple[str, ...]:
-    """A study by its first method that has a choice of settings, models left out."""
+    """A study: what its settings span, and what a digit costs where they buy digits."""
     title = f"[{study.title.partition(':')[0]}](#{slug(study.title)})"
-    for method in dict.fromkeys(p["method"] for p in points if not p["is_model"]):
-        seconds, errors = _curve(points, method)
-        if len(errors) > 2 and errors.max() > 3.0 * errors.min():
-            ends = np.argmax(errors), np.argmin(errors)
-            cells = [f"{number(errors[i])} in {_seconds(seconds[i])} s" for i in ends]
-            factor = digit(points, method)
-            # Settings other than a tolerance or a grid, such as solids, do not buy digits.
-            is_bought = ends[0] < ends[1] and factor > 1.0
-            return (title, *cells, _costs(factor) if is_bought else "-")
-    best = [p for p in points if p["error"] is not None and not p["is_model"]]
-    least = min(best, key=lambda p: p["error"])
-    return title, "-", f"{number(least['error'])} in {_seconds(least['seconds'])} s", "-"
+    if study.digits:
+        seconds, errors = _curve(points, study.digits)
+        ends = [(errors[i], seconds[i]) for i in (np.argmax(errors), np.argmin(errors))]
+        more = _costs(digit(points, study.digits))
+    else:
+        some = [p for p in points if p["error"] is not None and not p["is_model"]]
+        some.sort(key=lambda p: -p["error"])
+        ends = [(p["error"], p["seconds"]) for p in (some[0], some[-1])]
+        more = "-"
+    return title, *(f"{number(error)} in {_seconds(cost)} s" for error, cost in ends), more
 
 
 def _study(study: AccuracyStudy, points: Points) -> str:
@@ -339,7 +340,7 @@ def _peers(found: Mapping[str, Any]) -> list[str]:
     heads = ("what", "pixels a side", "convolutions", "contactkit", "without numba and ducc0")
     return [
         "## Other programs",
-        "The same problems by contactkit and by other programs from PyPI, in one run of `make "
+        "The same problems by contactkit and by other programs from PyPI, side by side, by `make "
         f"bench`: {found['conditions']}.",
         f"![CPU seconds of contactkit and of other programs, problem by problem]({NAME}-peers.png)",
         "CPU seconds on one thread, and in brackets the error: violation of the conditions of "
@@ -384,6 +385,7 @@ def _draw_half(studies: Mapping[str, Points], half: str, name: str) -> None:
             ax.plot(seconds, errors, color=colour, marker=mark, ms=5, label=label)
         ax.set(xscale="log", yscale="log", xlabel="CPU time [s]", ylabel="relative error")
         plot.title(ax, title)
+        plot.plain_log(ax.xaxis)
         ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), frameon=False, fontsize=9)
     picture(made, name)
 
