@@ -40,7 +40,7 @@ __all__ = ["cavities", "native", "planforms"]
 
 _R, _OIL, _GAP, _RATE = 3.175e-3, 0.1, 1e-5, 1e-3  # [m], [Pa.s], [m], [m/s]
 _SIDE, _DOME = 4e-3, 1.0  # of the square, and radius of curvature [m]
-_CELLS = (64, 128, 256)
+_CELLS = (64, 128, 256)  # two halvings show the order; 512 would take a minute in all
 _DISC = Disc(radius=_R)
 
 Made = Callable[[int], tuple[Any, Any]]  # face and gap on a number of cells

@@ -126,8 +126,8 @@ def grids() -> list[Point]:
     return points
 
 
-def _pressed(n: int, share: float, periodic: bool) -> ContactScene:
-    """Steel on a surface whose shortest wave has eight pixels, pressed to about a share."""
+def _pressed(n: int, fraction: float, periodic: bool) -> ContactScene:
+    """Steel on a surface whose shortest wave has eight pixels, pressed to about a fraction in contact."""
     width = n * _PIXEL
     surface = SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=width / 4, cutoff=8.0 * _PIXEL)
     heights = realise(surface, Grid((n, n), (_PIXEL, _PIXEL), True))
@@ -136,20 +136,20 @@ def _pressed(n: int, share: float, periodic: bool) -> ContactScene:
     return ContactScene(
         interface=Interface(lower=Body(solid=steel), upper=Body(surface=surface)),
         window=Window(width=width, periodic=periodic),
-        loading=Pressing(pressure=0.5 * share * slope * steel.plane_strain_modulus),
+        loading=Pressing(pressure=0.5 * fraction * slope * steel.plane_strain_modulus),
         effects=(HalfSpace(),),
     )
 
 
 def sizes() -> list[Point]:
-    """Pressure at the default tolerance over pixels, share of contact and edges; solve alone."""
+    """Pressure at the default tolerance over pixels, fraction in contact and edges; solve alone."""
     points = []
     for edges, grid in (("periodic", (256, 512, 1024)), ("free", (256, 512))):
-        for share in (0.01, 0.05, 0.2):
+        for fraction in (0.01, 0.05, 0.2):
             for n in grid:
-                scene = _pressed(n, share, edges == "periodic")
+                scene = _pressed(n, fraction, edges == "periodic")
                 found, seconds, error = _solved(scene, Accuracy(grid=n))
-                method = f"{edges}, {100.0 * share:g} % in contact"
+                method = f"{edges}, {100.0 * fraction:g} % in contact"
                 points.append(Point(method, f"{n} x {n}", error, seconds, counts(found)))
     return points
 

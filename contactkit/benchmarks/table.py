@@ -139,7 +139,7 @@ _CONTACT = (
     AccuracyStudy(
         name="rough-contact",
         half="contact",
-        title="Rough contacts at the default tolerance, over pixels, share of contact and edges",
+        title="Rough contacts at the default tolerance, over pixels, fraction in contact and edges",
         quantity="pressure map",
         judge="the same at 1e-11; eight pixels to the shortest wave; seconds of the solve alone",
         solvers=("solve",),
@@ -321,7 +321,7 @@ _CONTACT = (
         digits="Maugis parameter 1",
         holds=1e-2,
         note="With a Maugis parameter of 5 the range of the attraction is resolved from 128 x 128 "
-        "pixels on; the trapping number, which a result prints, says so.",
+        "pixels on; the trapping number, which a result prints, tells.",
     ),
     AccuracyStudy(
         name="history",
