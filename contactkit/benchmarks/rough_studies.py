@@ -127,7 +127,7 @@ def grids() -> list[Point]:
 
 
 def _pressed(n: int, fraction: float, periodic: bool) -> ContactScene:
-    """Steel on a surface whose shortest wave has eight pixels, pressed to about a fraction in contact."""
+    """Steel on a surface whose shortest wave has eight pixels, with about a fraction in contact."""
     width = n * _PIXEL
     surface = SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=width / 4, cutoff=8.0 * _PIXEL)
     heights = realise(surface, Grid((n, n), (_PIXEL, _PIXEL), True))
