@@ -60,6 +60,7 @@ def test_a_hard_case_is_run_by_its_name(capsys):
     assert found["naive / error"]["value"] >= case.fails
 
 
+@pytest.mark.slow
 def test_errors_fall_with_the_grid():
     """Against Hertz, by the solver that is judged."""
     cylinder = [p for p in contact_studies.lines() if p.method.startswith("cylinder")]
