@@ -168,6 +168,8 @@ class Registry(_Listing[T_co]):
         Attribute of a class that is its name in files.
     plain : bool
         Whether a name alone stands for a kind whose fields are at their defaults.
+    implied : tuple of str
+        Kinds that files tell by their keys, so that they are written without their name.
 
     Examples
     --------
@@ -191,10 +193,12 @@ class Registry(_Listing[T_co]):
         role: str = "",
         attribute: str = "kind",
         plain: bool = False,
+        implied: tuple[str, ...] = (),
     ) -> None:
         self.family, self.homes, self.tag, self.group = family, homes, tag, group
         self.what = what or family
         self.role, self.attribute, self.plain = role, attribute, plain
+        self.implied = implied
         self.own: dict[str, type[T_co]] = {}
         """Classes that `register` was given, by their names."""
 

@@ -11,7 +11,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import attrs
 from attrs import field, frozen
 
 from ..accuracy import Accuracy
@@ -89,7 +88,7 @@ def scene_key(scene: Scene, accuracy: Accuracy) -> str:
     tables = unstructure(scene, {}, for_key=True)
     tables.pop("name", None)  # a title does not change results
     _name_by_content(tables)
-    what = [_FORMAT, __version__, tables, attrs.asdict(accuracy)]
+    what = [_FORMAT, __version__, tables, accuracy.values]
     return hashlib.sha256(json.dumps(what, sort_keys=True).encode()).hexdigest()[:40]
 
 

@@ -316,6 +316,7 @@ class Study(StudyColumns, Generic[R_co]):
         )
         return write_rows(Path(path).with_suffix(".csv"), heads, rows)
 
+
 def _over_scales(point: StudyPoint, units: Mapping[str, str], names: set[str]) -> StudyPoint:
     """A point with some of its parameters and numbers divided by the scales of their units."""
 
@@ -348,5 +349,3 @@ def _number(point: StudyPoint, name: str) -> Any:
     if name == "seconds":
         return point.seconds
     return point.counts.get(name, math.nan)
-
-

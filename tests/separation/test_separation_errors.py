@@ -108,11 +108,11 @@ FIELDS = [
     (STICKY, "reduced_modulus", "Pa", POSITIVE, [0.0, -1e9]),
     (STICKY, "equilibrium_distance", "m", POSITIVE, [0.0, -1e-10, None]),
     (STICKY, "strength", "Pa", POSITIVE, [0.0, -1e6]),
-    (ACCURACY, "time_rtol", "", "lie between 1e-11 and 0.1", [0.0, -1e-8, 1.0, 1e-14, None]),
-    (ACCURACY, "curve_rtol", "", "lie between 1e-6 and 0.1", [0.0, -1e-3, 1.0, None]),
-    (ACCURACY, "film_rtol", "", "lie between 1e-6 and 0.1", [0.0, -1e-3, 1.0, None]),
-    (ACCURACY, "points", "", WHOLE, [0, -5, 1.5, None]),
-    (ACCURACY, "max_steps", "", WHOLE, [0, -5, 1.5, None]),
+    (ACCURACY, "time_rtol", "", "lie between 1e-11 and 0.1", [0.0, -1e-8, 1.0, 1e-14]),
+    (ACCURACY, "curve_rtol", "", "lie between 1e-6 and 0.1", [0.0, -1e-3, 1.0]),
+    (ACCURACY, "film_rtol", "", "lie between 1e-6 and 0.1", [0.0, -1e-3, 1.0]),
+    (ACCURACY, "points", "", WHOLE, [0, -5, 1.5]),
+    (ACCURACY, "max_steps", "", WHOLE, [0, -5, 1.5]),
 ]
 
 

@@ -79,9 +79,14 @@ def test_a_streamed_study_has_the_columns_of_a_study(tmp_path):
     assert found.number_names == wanted.number_names
     assert found.telling() == wanted.telling()
     assert [line.label for line in found.lines(GAPS)] == [x.label for x in wanted.lines(GAPS)]
-    saved, same = (ck.read_curve(one.save(tmp_path / n)) for n, one in ((".f", found), (".s", wanted)))
+    saved, same = (
+        ck.read_curve(one.save(tmp_path / n)) for n, one in ((".f", found), (".s", wanted))
+    )
     assert (saved.units, saved.sources) == (same.units, same.sources)
-    assert (saved.parts["paths"], saved.parts["shape"]) == (same.parts["paths"], same.parts["shape"])
+    assert (saved.parts["paths"], saved.parts["shape"]) == (
+        same.parts["paths"],
+        same.parts["shape"],
+    )
     np.testing.assert_array_equal(saved["viscous_impulse"], same["viscous_impulse"])
     assert found.plot.available == wanted.plot.available
     assert len(found.plot.number("viscous_impulse").lines) == 3
