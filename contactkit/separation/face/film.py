@@ -9,12 +9,13 @@ from attrs import field, frozen
 
 from ...errors import ConvergenceError
 from ...lubrication.reynolds.damping import DampingLaw
+from ...validity import ValidityNumber
 from .shape import FaceShape, closed_form
 
 if TYPE_CHECKING:
     from .grid import FaceGrid
 
-__all__ = ["FaceFilm", "face_film"]
+__all__ = ["FARTHER", "NEARER", "FaceFilm", "face_film", "table_points"]
 
 _FEWEST, _MOST = 32, 512
 """Cells along the longer side: 16 leave 1 to 5 % of the force, 512 take seconds a solution."""
@@ -23,7 +24,7 @@ _CAVITY = 0.1
 returns: the release time of the injector is off by 2.6e-3, 1.1e-3, 4e-4 with 64, 96, 128 cells."""
 _PER_DECADE = 8
 """Gaps of a table in a decade: cubics through them leave 1e-5 of a dome, a tilt, a recess."""
-_NEARER, _FARTHER = 0.1, 4.0
+NEARER, FARTHER = 0.1, 4.0
 """Reach of a table below the smallest and beyond the largest gap of the scene; it is a power of the
 gap from there, which meets the table without a kink."""
 
@@ -44,6 +45,8 @@ class FaceFilm:
         Error of the force [-], by the change from half the cells; 0 of a closed form.
     cells : int
         Cells along the longer side of the grid; 0 of a closed form.
+    numbers : tuple of ValidityNumber
+        Ranges of the flow factors of its roughness.
     """
 
     shape: FaceShape
@@ -52,6 +55,7 @@ class FaceFilm:
     error: float = 0.0
     cells: int = 0
     rtol: float = field(default=1e-3, repr=False)
+    numbers: tuple[ValidityNumber, ...] = field(default=(), repr=False)
 
     def coefficient(self, gap: float) -> float:
         """Damping over viscosity [m] at a gap [m]."""
@@ -113,6 +117,10 @@ def face_film(shape: FaceShape, gaps: tuple[float, float], rtol: float) -> FaceF
     known = closed_form(shape)
     if known is not None:
         return FaceFilm(shape, known.law, known.depth, rtol=rtol)
+    if shape.roughness is not None:
+        from .rough import rough_film
+
+        return rough_film(face_film(shape._replace(roughness=None), gaps, rtol), shape, gaps)
     from .grid import gridded
 
     before, cells = _coefficient(gridded(shape, _FEWEST), gaps[0]), 2 * _FEWEST
@@ -125,6 +133,11 @@ def face_film(shape: FaceShape, gaps: tuple[float, float], rtol: float) -> FaceF
         before, cells = found, _finer(cells, error, rtol)
     law, missed = _law(grid, gaps)
     return FaceFilm(shape, law, 0.0, error + missed, cells, rtol)
+
+
+def table_points(low: float, high: float) -> int:
+    """Gaps of a table between two distances [m]."""
+    return math.ceil(_PER_DECADE * math.log10(high / low)) + 1
 
 
 def _finer(cells: int, error: float, rtol: float) -> int:
@@ -153,8 +166,8 @@ def _law(grid: FaceGrid, gaps: tuple[float, float]) -> tuple[DampingLaw, float]:
         return face_damping(grid.face), 0.0
     # In the distance from the highest peak of a relief, which is 0 without any.
     peak = -float(grid.relief[grid.face.loaded].min())
-    low, high = _NEARER * (gaps[0] - peak), _FARTHER * gaps[1]
-    points = math.ceil(_PER_DECADE * math.log10(high / low)) + 1
+    low, high = NEARER * (gaps[0] - peak), FARTHER * gaps[1]
+    points = table_points(low, high)
     law = tabulate_damping(grid.face, (peak + low, peak + high), grid.relief, points=points)
     # Midway between the points around the smallest gap of the scene.
     step = (high / low) ** (1.0 / (points - 1))
