@@ -205,6 +205,7 @@ PLANFORMS: Registry[Any] = Registry(
         "sector": "scene.planforms:Sector",
         "polygon": "scene.planforms:Polygon",
         "image": "scene.planforms:Image",
+        "image-file": "scene.planforms:ImageFile",
         "union": "scene.planforms:Union",
         "intersection": "scene.planforms:Intersection",
         "difference": "scene.planforms:Difference",

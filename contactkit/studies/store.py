@@ -18,6 +18,7 @@ from ..errors import DescriptionError
 from ..files.scenes import write_whole
 from ..files.unstructure import unstructure
 from ..reading.texts import from_json, read_text
+from ..scene.planforms import ImageFile
 from ..scene.rough_surfaces import Measured
 from ..scene.scales import Scale
 
@@ -93,11 +94,11 @@ def scene_key(scene: Scene, accuracy: Accuracy) -> str:
 
 
 def _name_by_content(value: Any) -> None:
-    """Name height maps in tables by what their files hold, wherever these are."""
+    """Name height maps and images in tables by what their files hold, wherever these are."""
     for item in value.values() if isinstance(value, dict) else value:
         if isinstance(item, dict | list):
             _name_by_content(item)
-    if isinstance(value, dict) and value.get("shape") == Measured.kind:
+    if isinstance(value, dict) and value.get("shape") in (Measured.kind, ImageFile.kind):
         value["path"] = _content(value["path"])
 
 

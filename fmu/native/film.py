@@ -13,7 +13,7 @@ from ...errors import ConvergenceError, DescriptionError, PlanError
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.base import FilmEnd, SeparationForce
-from ...separation.effects.film_shape import FilmShape
+from ...separation.effects.film_shape import FilmShape, between_flats
 from ...separation.effects.force_law import ForceLaw, measured_rate
 from ...separation.effects.prepared import PreparedScene, with_fraction
 from ...separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce, viscous_film
@@ -150,7 +150,7 @@ def _film(common: _Common, fraction: float) -> Film:
     forces = [e for e in made.scene.effects if isinstance(e, SeparationForce)]
     rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
     is_liquid = any(kind.newtonian is not None for kind in film.laws)
-    shape = viscous_film(prepared) if is_liquid else None
+    shape = _liquid_shape(prepared) if is_liquid else None
     disc = shape if can_cavitate(made.scene) and not on_face(made.scene) else None
     laws = [law for effect in forces for law in _laws(common, effect, film.laws[type(effect)])]
     if len(laws) > Film.most("laws"):
@@ -167,6 +167,14 @@ def _film(common: _Common, fraction: float) -> Film:
         rim_square=disc.rim * disc.rim if disc else 0.0,
         volume=disc.volume if disc else 0.0,
     )
+
+
+def _liquid_shape(prepared: PreparedScene[SeparationScene]) -> FilmShape:
+    """Shape of the film; of one on a face that of a disc of its area, whatever the gap."""
+    interface = prepared.scene.interface
+    if on_face(prepared.scene) and not interface.is_flat:
+        return between_flats(1, _INF, interface.rim_radius)
+    return viscous_film(prepared)
 
 
 def _check_limits(common: _Common) -> None:

@@ -61,10 +61,13 @@ HUMID = ck.Meniscus(liquid=OIL, relative_humidity=0.5)
 SUMMITS = ck.AsperityPopulation(density=1e12, radius=1e-6)
 STICKY = ck.AdhesiveContact(work_of_adhesion=0.05, reduced_modulus=1e9)
 
+ROUGH = ck.Wave(amplitude=1e-9, wavelength=1e-6)
 FIELDS = [
     (ck.Flat(), "radius", "m", POSITIVE, [0.0, -1e-3]),
     (ck.Flat(radius=1.0), "tilt", "rad", "be a pair of slopes (x, y)", [1e-3, None]),
     (ck.Flat(radius=1.0), "crown_radius", "m", FINITE, []),
+    (ck.FineRoughness(surface=ROUGH, width=1e-6), "width", "m", POSITIVE, [0.0, -1e-6]),
+    (ck.FineRoughness(surface=ROUGH, width=1e-6), "pixels", "", WHOLE, [0, -1, 2.5, None]),
     (ck.Sphere(radius=1.0), "radius", "m", POSITIVE, [0.0, -1e-3, None]),
     (FILM, "volume", "m3", POSITIVE, [0.0, -1e-12]),
     (MOIST, "pressure", "Pa", "be negative and finite", [0.0, 1e5]),

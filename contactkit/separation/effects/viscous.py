@@ -256,8 +256,9 @@ def _needs_of_face(scene: SeparationScene) -> tuple[str, ...]:
     cure = ' (or cavity="truncated")' if scene.interface.has_discs else ""
     is_fine = not rough or (len(rough) == 1 and not any(map(_is_uneven, faces)))
     needs = {
-        f"a Flat with a radius [m] or a planform, which ends the film: a cavity is followed up to a "
-        f"rim{cure}": any(face.outline is not None for face in faces),
+        f"a Flat with a radius [m] or a planform, up to whose rim a cavity is followed{cure}": any(
+            face.outline is not None for face in faces
+        ),
         "FineRoughness on one face, that of both together, and even faces; beside tilt, crown, "
         "sphere, recesses or a relief give the roughness as part of the relief": is_fine
         and (not rough or scene.interface.is_flat),
