@@ -25,7 +25,7 @@ from ..validators import (
     positive,
     refuse,
 )
-from .faces import FaceHole, Recess, Vent
+from .faces import FaceHole, Recess, SealedHole, Vent
 from .planforms import Disc, Planform
 from .window import Grid
 
@@ -352,7 +352,7 @@ class Flat(Surface):
 
     @holes.validator
     def _check_holes(self, attribute: Attribute[Any], value: tuple[Any, ...]) -> None:
-        if not all(isinstance(hole, FaceHole) for hole in value):
+        if not all(isinstance(hole, Vent | SealedHole) for hole in value):
             raise refuse(self, attribute, value, "hold a Vent or a SealedHole each")
 
     @recesses.validator

@@ -111,7 +111,7 @@ def _results() -> Reader:
     made = {
         "contact": ck.solve(ck.plan(pressed, ck.Accuracy(grid=8))),
         "separation": ck.simulate(ck.plan(opened, coarse)),
-        "sliding": ck.simulate(ck.plan(slid, coarse)),
+        "sliding": ck.simulate(ck.plan(slid, ck.Accuracy(points=20))),
     }
     return Reader({f"{n}.npz": to_bytes(one) for n, one in made.items()}, _loaded, _check_result)
 

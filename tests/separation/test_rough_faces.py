@@ -74,14 +74,16 @@ def test_fine_roughness_on_another_planform_divides_by_its_flow_factor():
 
 
 @pytest.mark.slow  # 2 s
-def test_gaussian_roughness_is_that_of_patir_and_cheng():
-    """Their fit for isotropic roughness, 1 - 0.9 exp(-0.56 h/sigma)."""
+def test_gaussian_roughness_is_that_of_perturbation_theory_and_of_patir_and_cheng():
+    """Of isotropic roughness 1 - 3/2 (sigma/h)^2 (Tripp 1983), and 1 - 0.9 exp(-0.56 h/sigma)."""
     gauss = ck.GaussianRoughness(rms=1e-6, correlation_length=2e-5, cutoff=8e-6)
     fine = ck.FineRoughness(surface=gauss, width=2e-4, pixels=96)
     rough = force(ck.Flat(radius=R, roughness=fine))
     sigma = float(fine.patch()[0].std())
     factor = 1.0 - 0.9 * math.exp(-0.56 * GAP / sigma)
-    assert rough / force(ck.Flat(radius=R)) == pytest.approx(1.0 / factor, rel=0.01)
+    ratio = rough / force(ck.Flat(radius=R))
+    assert ratio - 1.0 == pytest.approx(1.5 * (sigma / GAP) ** 2, rel=0.1)
+    assert ratio == pytest.approx(1.0 / factor, rel=0.01)
 
 
 @pytest.mark.slow  # 2 s

@@ -343,10 +343,10 @@ def test_a_break_distance_lies_beyond_the_start():
     )
 
 
-def test_the_edge_of_a_cavity_is_known_between_flats_only():
+def test_the_condition_of_swift_and_stieber_is_known_between_flats_only():
     ball = ck.Interface(upper=ck.Sphere(radius=1e-3), meniscus=FILM)
     refuses_plan(
-        'TensionLimit needs two flats (or cavity="truncated")',
+        'TensionLimit needs two flats (or cavity="truncated", or "mass-conserving")',
         effects=(VISCOUS, ck.TensionLimit(cavity="reynolds")),
         interface=ball,
     )
