@@ -129,7 +129,7 @@ SOLIDS: Registry[Any] = Registry(
     tag="kind",
     group="contactkit.solids",
     role="Solid",
-    implied=("material", "stack"),
+    naming="implied",
 )
 """What bodies are made of. A `Layer` is a part of a stack, and a `RigidBase` one of the three
 conditions below layers that the elasticity of layered half-spaces knows (an endless substrate,
@@ -186,14 +186,14 @@ HARDNESS_RULES: Registry[Any] = Registry(
     tag="kind",
     group="contactkit.hardness_rules",
     role="HardnessRule",
-    plain=True,
+    naming="plain",
 )
 MENISCUS_PROFILES: Registry[Any] = Registry(
     "meniscus profile",
     {"as-published": "separation.effects.meniscus:AsPublished"},
     tag="kind",
     role="AsPublished",
-    plain=True,
+    naming="plain",
 )
 PLANFORMS: Registry[Any] = Registry(
     "planform",

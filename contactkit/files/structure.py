@@ -349,7 +349,7 @@ def _has_kind(value: Any) -> bool:
 
 
 def _of_kind(value: Any) -> Any:
-    """A solid of the kind that a table names; those of contactkit are told by their keys too."""
+    """A solid of the kind that a table names; keys alone tell those of contactkit apart."""
     return _tagged(SOLIDS, SOLIDS.tag)(value, None)
 
 

@@ -21,7 +21,7 @@ def _poisson(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 @frozen(kw_only=True)
 class Solid(Described, abc.ABC):
-    """What a body is made of. Its kind is its name in files, under ``kind``.
+    """The solid of a body. Its kind is its name in files, under ``kind``.
 
     Effects know a solid as layers on a substrate, `stack`: the half-space of a `Material`, the
     layers of a `Stack`, the layers by which a solid of one's own is represented, such as those of

@@ -91,7 +91,7 @@ class Influence:
         return any(map(math.isnan, self.results))
 
     def tried(self) -> dict[str, Any]:
-        """Values, results and messages as plain numbers and texts, with the unit of the values."""
+        """Values, results and messages as floats and texts, with the unit of the values."""
         plain = [v if isinstance(v, bool | int | float | str) else as_text(v) for v in self.values]
         return {
             "unit": self.unit,

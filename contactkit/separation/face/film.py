@@ -13,9 +13,10 @@ from ...validity import ValidityNumber
 from .shape import FaceShape, closed_form
 
 if TYPE_CHECKING:
+    from ...scene.surfaces import FineRoughness
     from .grid import FaceGrid
 
-__all__ = ["FARTHER", "NEARER", "FaceFilm", "face_film", "table_points"]
+__all__ = ["FaceFilm", "face_film"]
 
 _FEWEST, _MOST = 32, 512
 """Cells along the longer side: 16 leave 1 to 5 % of the force, 512 take seconds a solution."""
@@ -24,9 +25,12 @@ _CAVITY = 0.1
 returns: the release time of the injector is off by 2.6e-3, 1.1e-3, 4e-4 with 64, 96, 128 cells."""
 _PER_DECADE = 8
 """Gaps of a table in a decade: cubics through them leave 1e-5 of a dome, a tilt, a recess."""
-NEARER, FARTHER = 0.1, 4.0
+_NEARER, _FARTHER = 0.1, 4.0
 """Reach of a table below the smallest and beyond the largest gap of the scene; it is a power of the
 gap from there, which meets the table without a kink."""
+
+_THINNEST = 3.0
+"""Rms heights of fine roughness down to which a table goes: below, contacts block the flow."""
 
 
 @frozen(eq=False)
@@ -118,9 +122,8 @@ def face_film(shape: FaceShape, gaps: tuple[float, float], rtol: float) -> FaceF
     if known is not None:
         return FaceFilm(shape, known.law, known.depth, rtol=rtol)
     if shape.roughness is not None:
-        from .rough import rough_film
-
-        return rough_film(face_film(shape._replace(roughness=None), gaps, rtol), shape, gaps)
+        smooth = face_film(shape._replace(roughness=None), gaps, rtol)
+        return _rough_film(smooth, shape.roughness, gaps)
     from .grid import gridded
 
     before, cells = _coefficient(gridded(shape, _FEWEST), gaps[0]), 2 * _FEWEST
@@ -135,7 +138,21 @@ def face_film(shape: FaceShape, gaps: tuple[float, float], rtol: float) -> FaceF
     return FaceFilm(shape, law, 0.0, error + missed, cells, rtol)
 
 
-def table_points(low: float, high: float) -> int:
+def _rough_film(smooth: FaceFilm, rough: FineRoughness, gaps: tuple[float, float]) -> FaceFilm:
+    """Film on the face of a smooth one, over the gap between the mean planes."""
+    from .rough import rough_law, rough_numbers
+
+    patch, grid = rough.patch(), smooth.gridded(gaps[0])
+    low = min(gaps[0], max(_NEARER * gaps[0], _THINNEST * float(patch[0].std())))
+    high = _FARTHER * gaps[1]
+    exact = None if smooth.cells else smooth.coefficient(low)
+    law = rough_law(grid, patch, (low, high), _points(low, high), exact)
+    numbers = rough_numbers(smooth.shape.outline, patch, gaps[0])
+    cells, shape = max(grid.face.shape), smooth.shape._replace(roughness=rough)
+    return FaceFilm(shape, law, 0.0, smooth.error, cells, smooth.rtol, numbers)
+
+
+def _points(low: float, high: float) -> int:
     """Gaps of a table between two distances [m]."""
     return math.ceil(_PER_DECADE * math.log10(high / low)) + 1
 
@@ -166,8 +183,8 @@ def _law(grid: FaceGrid, gaps: tuple[float, float]) -> tuple[DampingLaw, float]:
         return face_damping(grid.face), 0.0
     # In the distance from the highest peak of a relief, which is 0 without any.
     peak = -float(grid.relief[grid.face.loaded].min())
-    low, high = NEARER * (gaps[0] - peak), FARTHER * gaps[1]
-    points = table_points(low, high)
+    low, high = _NEARER * (gaps[0] - peak), _FARTHER * gaps[1]
+    points = _points(low, high)
     law = tabulate_damping(grid.face, (peak + low, peak + high), grid.relief, points=points)
     # Midway between the points around the smallest gap of the scene.
     step = (high / low) ** (1.0 / (points - 1))

@@ -1,4 +1,4 @@
-"""Full film on an even face with fine roughness, by the flow factors of a patch at each gap."""
+"""Damping law of an even face with fine roughness, by the flow factors of a patch at each gap."""
 
 from __future__ import annotations
 
@@ -8,93 +8,83 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import evolve
 
+from ...lubrication.reynolds.damping import TabulatedDamping
 from ...lubrication.reynolds.rough_flow import patch_factors
 from ...lubrication.reynolds.shape_factor import face_damping, unchecked_rough_damping
 from ...lubrication.reynolds.validity import roughness_number
 from ...validity import ValidityNumber
-from .film import FARTHER, NEARER, FaceFilm, table_points
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...scene.surfaces import FineRoughness
-    from .shape import FaceShape
+    from ...scene.planforms import Planform
+    from .grid import FaceGrid
 
     Map = NDArray[np.floating[Any]]
+    Patch = tuple[Map, tuple[float, float]]
 
-__all__ = ["rough_film"]
+__all__ = ["rough_law", "rough_numbers"]
 
-# Rms heights down to which the table goes: below, a motion meets contacts, which block the flow.
-_THINNEST = 3.0
 _FINEST = 0.1  # of the face, that a patch may measure: the factors are those of an endless face
 
 
-def rough_film(smooth: FaceFilm, shape: FaceShape, gaps: tuple[float, float]) -> FaceFilm:
-    """Film on the face of a smooth one, over the gap between the mean planes.
+def rough_law(
+    grid: FaceGrid, patch: Patch, reach: tuple[float, float], points: int, exact: float | None
+) -> TabulatedDamping:
+    """Damping over the gap between the mean planes.
 
     Parameters
     ----------
-    smooth : FaceFilm
-        The film without the roughness.
-    shape : FaceShape
-        Its shape, with the roughness.
-    gaps : (float, float)
-        Smallest and largest gap of the scene [m].
+    grid : FaceGrid
+        The even face on a grid.
+    patch : (ndarray (ny, nx), (float, float))
+        Heights of the patch [m], and its pixel [m].
+    reach : (float, float)
+        Smallest and largest gap of the table [m].
+    points : int
+        Gaps of the table.
+    exact : float, optional
+        Damping over viscosity [m] of the smooth face at the smallest gap, where it is known in
+        closed form: the law has the ratio to the smooth one of the grid.
 
     Raises
     ------
     DescriptionError
-        If the patch is not resolved, or contacts block it at the smallest gap.
+        If contacts block the patch at a gap of the table.
 
     Examples
     --------
     >>> import contactkit as ck
-    >>> from contactkit.scene.surfaces import FineRoughness
     >>> from contactkit.separation.face.film import face_film
     >>> from contactkit.separation.face.shape import shape_of
-    >>> ridges = FineRoughness(surface=ck.Wave(amplitude=2e-6, wavelength=2e-5), width=2e-5)
+    >>> wave = ck.Wave(amplitude=2e-6, wavelength=2e-5)
+    >>> ridges = ck.FineRoughness(surface=wave, width=2e-5, pixels=16)
     >>> rough = ck.Flat(radius=1e-3, roughness=ridges)
     >>> made = face_film(shape_of(ck.Interface(upper=rough)), (5e-6, 2e-5), 1e-2)
     >>> round(made.coefficient(5e-6) / (1.5 * math.pi * 1e-3**4 / 5e-6**3), 2)
-    1.11
+    1.09
     """
-    rough = shape.roughness
-    assert rough is not None
-    heights, pixel_size = rough.patch()
-    grid = smooth.gridded(gaps[0])
-    rms = float(heights.std())
-    low = min(gaps[0], max(NEARER * gaps[0], _THINNEST * rms))
-    high = FARTHER * gaps[1]
-    law = unchecked_rough_damping(
-        grid.face, (low, high), heights, pixel_size, points=table_points(low, high)
-    )
-    # The law of the grid, by what the smooth one misses of its exact form where that is known.
-    gridded = face_damping(grid.face).coefficient(gaps[0])
-    scale = 1.0 if smooth.cells else smooth.coefficient(gaps[0]) / gridded
-    law = evolve(
+    heights, pixel_size = patch
+    law = unchecked_rough_damping(grid.face, reach, heights, pixel_size, points=points)
+    if exact is None:
+        return law
+    scale = exact / face_damping(grid.face).coefficient(reach[0])
+    return evolve(
         law,
         coefficients=tuple(scale * one for one in law.coefficients),
         onsets=tuple(scale * one for one in law.onsets),
     )
-    numbers = _numbers(rough, shape, gaps[0], heights, pixel_size)
-    cells = smooth.cells or max(grid.face.shape)
-    return FaceFilm(shape, law, 0.0, smooth.error, cells, smooth.rtol, numbers)
 
 
-def _numbers(
-    rough: FineRoughness,
-    shape: FaceShape,
-    gap: float,
-    heights: Map,
-    pixel_size: tuple[float, float],
-) -> tuple[ValidityNumber, ...]:
+def rough_numbers(outline: Planform, patch: Patch, gap: float) -> tuple[ValidityNumber, ...]:
     """Whether flow factors say what the roughness does, at the smallest gap [m]."""
+    heights, pixel_size = patch
     tensor = patch_factors(gap - heights, pixel_size, 0.0, None).conductivity
     every_second = (2.0 * pixel_size[0], 2.0 * pixel_size[1])
     coarse = patch_factors(gap - heights[::2, ::2], every_second, 0.0, None).conductivity
     change = float(np.abs(np.diag(coarse) / np.diag(tensor) - 1.0).max())
     mean = math.sqrt(float(tensor[0, 0] * tensor[1, 1]))
-    left, right, lowest, highest = shape.outline.bounds
+    left, right, lowest, highest = outline.bounds
     across = max(one * n for one, n in zip(pixel_size, heights.shape, strict=True))
     return (
         roughness_number(gap, float(heights.std())),
