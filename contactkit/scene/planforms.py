@@ -523,7 +523,7 @@ class Image(Planform):
         level = distance_of_image(self.coverage, self.pixel)
         places = np.stack([rows.ravel(), columns.ravel()])
         found = map_coordinates(level, places, order=1, mode="nearest")
-        return np.asarray(found).reshape(rows.shape)
+        return np.asarray(found, dtype=float).reshape(rows.shape)
 
     @property
     def bounds(self) -> Bounds:

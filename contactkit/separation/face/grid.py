@@ -101,8 +101,8 @@ def _relief_grid(relief: Surface, shape: FaceShape) -> Grid:
         if len(own) > 1:
             expected = "have height maps of one grid, (shape, pixel size [m])"
             raise DescriptionError("Flat.relief", sorted(own), expected)
-        ((pixels, size),) = own
-        return Grid(pixels, size, False)
+        ((pixels, pixel_size),) = own
+        return Grid(pixels, pixel_size, False)
     left, right, low, high = shape.outline.bounds
     width, height = 2.0 * max(abs(left), abs(right)), 2.0 * max(abs(low), abs(high))
     size = max(width, height) / _FINE
