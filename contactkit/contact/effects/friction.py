@@ -32,8 +32,8 @@ __all__ = [
 
 
 # Strength of the coupling of half-spaces at most. Relaxed steps contract by c/sqrt(1 + c^2): a
-# sphere takes 74 contacts at 2.6, 165 at 3.4, 333 at 4.9; at 10 active sets of the coupled equations
-# do not settle either, though they start from the solution at a coefficient a hundredth below.
+# sphere takes 74 contacts at 2.6, 165 at 3.4, 333 at 4.9. At 10 active sets of the coupled
+# equations do not settle either, not even from the solution at a coefficient 1 % below.
 _STRONGEST = 5.0
 
 

@@ -11,6 +11,7 @@ S       symbol of B over i: it is real, as B is odd in space
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -167,8 +168,9 @@ def coupling_strength(grid: Grid, lower: Layers | None, upper: Layers | None) ->
     0.2857
     """
     sides = [n * d for n, d in zip(grid.shape, grid.pixel_size, strict=True)]
-    low, high = 2.0 * np.pi / max(sides), np.pi * np.hypot(*(1.0 / d for d in grid.pixel_size))
-    wavenumbers = np.geomspace(low, high, int(_PER_E * np.log(high / low)) + 2)
+    dy, dx = grid.pixel_size
+    low, high = 2.0 * math.pi / max(sides), math.pi * math.hypot(1.0 / dy, 1.0 / dx)
+    wavenumbers = np.geomspace(low, high, int(_PER_E * math.log(high / low)) + 2)
     coupled, pressed = np.zeros_like(wavenumbers), np.zeros_like(wavenumbers)
     for sign, layers in ((1.0, lower), (-1.0, upper)):
         if layers is not None:
