@@ -72,6 +72,7 @@ if TYPE_CHECKING:
     from .contact.effects.plastic_history import PlasticHistory
     from .contact.effects.plasticity import HardnessLimit
     from .contact.effects.stress import SubsurfaceStress
+    from .contact.functionals import Functional, Slopes
     from .contact.plan import ContactPlan
     from .contact.press import press
     from .contact.result import ContactResult
@@ -153,7 +154,9 @@ if TYPE_CHECKING:
     from .shortcuts.menisci import bridge_force, capillary_force
     from .shortcuts.squeeze import squeeze_time
     from .studies.estimate import plan_study
+    from .studies.gradients.gradient import Gradient
     from .studies.sensitivity import Range, sensitivity
+    from .studies.sobol import sobol_indices
     from .studies.stream import stream_study
     from .studies.study import study
     from .studies.study_file import StudyFile
@@ -189,6 +192,8 @@ _HOMES = {
     "Flat": "scene.surfaces",
     "FrictionCoupling": "contact.effects.friction",
     "FrictionTraction": "contact.effects.friction",
+    "Functional": "contact.functionals",
+    "Gradient": "studies.gradients.gradient",
     "GaussianRoughness": "scene.rough_surfaces",
     "HalfSpace": "contact.effects.elasticity",
     "HardnessLimit": "contact.effects.plasticity",
@@ -251,6 +256,7 @@ _HOMES = {
     "SlidingPlan": "separation.sliding.plan",
     "SlidingResult": "separation.sliding.result",
     "SlidingScene": "scene.scenes",
+    "Slopes": "contact.functionals",
     "Sphere": "scene.surfaces",
     "SpringSlider": "analyses.stick_slip",
     "Stack": "scene.materials",
@@ -298,6 +304,7 @@ _HOMES = {
     "save_scene": "files.scenes",
     "sensitivity": "studies.sensitivity",
     "simulate": "separation.simulate",
+    "sobol_indices": "studies.sobol",
     "solve": "contact.solve",
     "squeeze_time": "shortcuts.squeeze",
     "stick_slip": "analyses.stick_slip",
@@ -339,6 +346,8 @@ __all__ = [
     "Flat",
     "FrictionCoupling",
     "FrictionTraction",
+    "Functional",
+    "Gradient",
     "GaussianRoughness",
     "HalfSpace",
     "HardnessLimit",
@@ -395,6 +404,7 @@ __all__ = [
     "SlidingPlan",
     "SlidingResult",
     "SlidingScene",
+    "Slopes",
     "SolidContact",
     "Sphere",
     "SpringSlider",
@@ -442,6 +452,7 @@ __all__ = [
     "save_scene",
     "sensitivity",
     "simulate",
+    "sobol_indices",
     "solve",
     "squeeze_time",
     "stick_slip",

@@ -7,15 +7,18 @@ from functools import partial
 from typing import Any
 
 from ...errors import DescriptionError
+from ...studies.gradients.gradient import Gradient
 from ...studies.sensitivity import Sensitivity
+from ...studies.sobol import SobolIndices
 from ...studies.table import Study
 from ..axis_units import axis_label, readable
+from ..gradient import gradient_map, relative_bars, sobol_bars
 from ..study import study_curves
 from ..style import Axes, figure, legend
 from ..tornado import tornado
 from .base import Figures, registered_figures
 
-__all__ = ["SensitivityFigures", "StudyFigures"]
+__all__ = ["GradientFigures", "SensitivityFigures", "SobolFigures", "StudyFigures"]
 
 
 @registered_figures.register(Study)
@@ -89,6 +92,64 @@ class SensitivityFigures(Figures[Sensitivity]):
         """
         found: Sensitivity = self._owner
         return tornado(found, ax, most=most, names=names, missing=missing)
+
+
+@registered_figures.register(Gradient)
+class GradientFigures(Figures[Gradient]):
+    """Figures of the slopes of a number."""
+
+    def pictures(self) -> dict[str, Callable[[], Axes]]:
+        """See `Figures.pictures`: those of the slopes that were asked for."""
+        found: dict[str, Callable[[], Axes]] = {}
+        if "heights" in self._owner.slopes:
+            found["heights"] = self.heights
+        if self._owner.bases:
+            found["relative"] = self.relative
+        return found
+
+    def heights(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the slope over the height of each pixel, per area.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if not given.
+
+        Raises
+        ------
+        DescriptionError
+            If the slopes over the heights were not asked for.
+        """
+        return gradient_map(self._owner, ax)
+
+    def relative(self, *, names: Mapping[str, str] | None = None, ax: Axes | None = None) -> Axes:
+        """Draw the relative change of the number per relative change of each parameter.
+
+        Parameters
+        ----------
+        names : mapping, optional
+            What to call the parameters, by path; else the end of the path.
+        ax : Axes, optional
+            Where to draw; a new figure if not given.
+        """
+        return relative_bars(self._owner, ax, names)
+
+
+@registered_figures.register(SobolIndices)
+class SobolFigures(Figures[SobolIndices]):
+    """Figures of Sobol' indices."""
+
+    def indices(self, *, names: Mapping[str, str] | None = None, ax: Axes | None = None) -> Axes:
+        """Draw first-order and total indices with their intervals, the largest on top.
+
+        Parameters
+        ----------
+        names : mapping, optional
+            What to call the assumptions, by path; else the end of the path.
+        ax : Axes, optional
+            Where to draw; a new figure if not given.
+        """
+        return sobol_bars(self._owner, ax, names)
 
 
 def _of_parameter(study: Study[Any], path: str) -> tuple[float, str]:

@@ -343,10 +343,9 @@ class _Motion:
 
     def _pull_rates(self, times: Array, dt: float) -> Array:
         """Rate of the pull at some times [N/s]."""
-        near = _STEP * dt
-        return np.array(
-            [(self.pull(float(t) + near) - self.pull(float(t) - near)) / (2.0 * near) for t in times]
-        )
+        near, pull = _STEP * dt, self.pull
+        rises = np.array([pull(t + near) - pull(t - near) for t in times.tolist()])
+        return rises / (2.0 * near)
 
     def _add_impulses(
         self, film: Film | None, stages: list[_Stage], solved: _Solved, dt: float
@@ -388,7 +387,9 @@ class _Motion:
 
     def found(self) -> MotionSlopes:
         """Return the numbers of the motion and their slopes."""
-        state, numbers, slopes = self.state, dict[str, float](), dict[str, Array]()
+        state = self.state
+        numbers: dict[str, float] = {}
+        slopes: dict[str, Array] = {}
         if state.n_releases:
             numbers |= {"release_time": state.release_time, "release_speed": state.release_speed}
             slopes |= {"release_time": self.tangent.time, "release_speed": self.tangent.speed}

@@ -13,7 +13,7 @@ from ...contact.grid import combined_heights
 from ...contact.plan import ContactPlan, unprepared_plan
 from ...contact.solver.convolution import Convolution
 from ...errors import NotSimulatedError
-from .differences import Differences, Parameter, differences, parameter
+from .differences import Differences, differences, parameter
 from .gradient import HEIGHTS, Gradient
 
 if TYPE_CHECKING:
@@ -39,9 +39,7 @@ class _Prepared(NamedTuple):
     approach: float
 
 
-def contact_gradient(
-    result: ContactResult, of: str | Functional, to: Sequence[str]
-) -> Gradient:
+def contact_gradient(result: ContactResult, of: str | Functional, to: Sequence[str]) -> Gradient:
     """Gradient of a number of a solved contact.
 
     Parameters

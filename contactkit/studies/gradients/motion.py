@@ -80,6 +80,8 @@ def separation_gradient(result: SeparationResult, of: str, to: Sequence[str]) ->
 def _of_motion(
     result: SeparationResult, of: str, made: list[Differences[Plan]]
 ) -> tuple[list[float], int]:
+    if result.status not in ("released", "time limit"):
+        raise NotSimulatedError(f"no gradient of a motion that does not end: {result.message}")
     variations = [Variation(one.prepared, one.weights) for one in made]
     found = motion_slopes(result.plan, variations, pull_law)
     if of not in found.slopes:
