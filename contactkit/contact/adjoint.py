@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Adjoint", "Change", "adjoint", "check_differentiable"]
 
-# Pressure over its maximum, and gap over the range of the displacement, up to which a pixel is
+# Pressure over its maximum, and gap over the largest displacement, up to which a pixel is
 # undecided: the tolerance of the contact conditions in `Accuracy.standard` is 1e-8 of the rms
 # height. Wider bands count pixels that a change of a per mille does not reach.
 _UNDECIDED = 1e-6
@@ -198,7 +198,7 @@ def _n_undecided(result: ContactResult, at_bound: NDArray[np.bool_]) -> int:
     p, gap = result.pressure, result.gap
     if not p.any():
         return 0
-    length = float(np.ptp(result.displacement))
+    length = float(np.abs(result.displacement).max())
     little = p <= _UNDECIDED * float(p.max())
     close = gap <= _UNDECIDED * length
     holes = result.holes

@@ -17,7 +17,7 @@ from .differences import Differences, differences, parameter
 from .gradient import HEIGHTS, Gradient
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
@@ -131,23 +131,29 @@ def _symbol(makers: Sequence[object], plan: ContactPlan) -> Map:
 
 def _change(plan: ContactPlan, result: ContactResult, made: Differences[_Prepared]) -> Change:
     """Differences over a parameter; those of the compliance applied to the pressure."""
-    pairs = list(zip(made.prepared, made.weights, strict=True))
+    pairs, scene, grid = list(zip(made.prepared, made.weights, strict=True)), plan.scene, plan.grid
 
-    def summed(values: list[Map | None]) -> Map | None:
-        if any(value is None for value in values):
+    def summed(values: list[Map | None], own: Callable[[], Map]) -> Map | None:
+        """Difference of maps, None where one is that of the scene itself."""
+        if all(value is None for value in values):
             return None
         rows = zip(made.weights, values, strict=True)
-        return np.asarray(sum(weight * np.asarray(value) for weight, value in rows))
+        found = sum(weight * (own() if value is None else value) for weight, value in rows)
+        return np.asarray(found)
 
-    symbol = summed([one.symbol for one in made.prepared])
+    symbol = summed(
+        [one.symbol for one in made.prepared],
+        lambda: _symbol(scene.demand(Compliance).prepare(scene, grid), plan),
+    )
     pressed = None
     if symbol is not None and np.any(symbol):
-        pressed = Convolution(plan.grid.shape, symbol, plan.grid.edges)(result.pressure)
+        pressed = Convolution(grid.shape, symbol, grid.edges)(result.pressure)
     hardness = None
     if plan.hardness is not None:
-        hardness = summed([np.asarray(one.hardness) for one in made.prepared])
+        hardness = sum(weight * np.asarray(one.hardness) for one, weight in pairs)
+    heights = [one.heights for one in made.prepared]
     return Change(
-        heights=summed([one.heights for one in made.prepared]),
+        heights=summed(heights, lambda: combined_heights(scene, grid)),
         pressed=pressed,
         hardness=hardness,
         load=sum(weight * one.load for one, weight in pairs),
