@@ -17,18 +17,20 @@ if TYPE_CHECKING:
 
 __all__ = ["gradient_map", "relative_bars", "sobol_bars"]
 
-_SHOWN = 99.5  # per cent of the slopes within the colours: edges of contacts have few far larger
+# Per cent of the slopes within the colours: edges of contacts, and the highest summit from which an
+# approach counts, have some far larger.
+_SHOWN = 98.0
 _FIRST, _TOTAL = "#0072b2", "#e69f00"  # distinct to the colour-blind, and in grey
 
 
 def gradient_map(gradient: Gradient, ax: Axes | None = None) -> Axes:
-    """Draw the slope over the height of each pixel, over its area; white where there is none."""
+    """Draw the slope over the height of each pixel; white where there is none."""
     contact, slopes = gradient.result, gradient.slopes.get("heights")
     if contact is None or slopes is None:
         raise DescriptionError("to", "heights", 'be asked for: result.gradient(of, "heights")')
     ax = ax if ax is not None else figure()[1]
     around, unit = extent(contact)
-    values = np.asarray(slopes) / contact.plan.grid.pixel_area
+    values = np.asarray(slopes)
     size = float(np.percentile(np.abs(values[values != 0.0]), _SHOWN)) if values.any() else 1.0
     shown = np.ma.masked_where(values == 0.0, values)
     image = ax.imshow(
@@ -43,9 +45,8 @@ def gradient_map(gradient: Gradient, ax: Axes | None = None) -> Axes:
     hide_holes(ax, contact)
     place(ax, unit)
     bar = ax.figure.colorbar(image, ax=ax, shrink=0.85, extend="both")
-    bar.set_label(
-        f"d {_spoken(gradient.quantity)} / d height per area [{gradient.slope_unit('heights')}/m2]"
-    )
+    unit = gradient.slope_unit("heights")
+    bar.set_label(f"slope of {_spoken(gradient.quantity)} over the height of a pixel [{unit}]")
     return ax
 
 
@@ -60,6 +61,7 @@ def relative_bars(
     ax.barh(range(len(rows)), values, color=_FIRST, height=0.6)
     ax.axvline(0.0, color="0.3", linewidth=0.8)
     ax.set_yticks(range(len(rows)), _labels(rows, names))
+    ax.set_axisbelow(True)
     ax.set_xlabel(f"change of {_spoken(gradient.quantity)} per change of the parameter [%/%]")
     return ax
 
@@ -79,6 +81,7 @@ def sobol_bars(
         ax.barh(at + shift, values, height=0.34, color=colour, label=label)
         ax.errorbar(values, at + shift, xerr=off, fmt="none", ecolor="0.2", capsize=2.0)
     ax.set_yticks(at, _labels(list(found.paths), names))
+    ax.set_axisbelow(True)
     ax.set_xlabel(f"part of the variance of {_spoken(found.quantity)} [-]")
     legend(ax)
     return ax

@@ -108,7 +108,7 @@ class GradientFigures(Figures[Gradient]):
         return found
 
     def heights(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the slope over the height of each pixel, per area.
+        """Draw the slope over the height of each pixel.
 
         Parameters
         ----------

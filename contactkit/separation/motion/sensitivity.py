@@ -339,13 +339,13 @@ class _Motion:
             found[:, i] += [sum(w * pull(float(t)) for w, pull in pairs) for t in times]
         found -= np.outer(gaps - problem.slack_gap, self.stiffness)
         found += problem.stiffness * self.slack
-        return found - np.array([one.by_parameter.sum(axis=0) for one in stages])
+        return np.asarray(found - np.array([one.by_parameter.sum(axis=0) for one in stages]))
 
     def _pull_rates(self, times: Array, dt: float) -> Array:
         """Rate of the pull at some times [N/s]."""
         near, pull = _STEP * dt, self.pull
         rises = np.array([pull(t + near) - pull(t - near) for t in times.tolist()])
-        return rises / (2.0 * near)
+        return np.asarray(rises / (2.0 * near))
 
     def _add_impulses(
         self, film: Film | None, stages: list[_Stage], solved: _Solved, dt: float

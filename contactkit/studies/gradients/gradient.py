@@ -85,7 +85,9 @@ class Gradient(Tabular):
     def slope_unit(self, path: str) -> str:
         """Unit of the slope over a parameter."""
         below = self.units[path]
-        return self.unit if below == "-" else f"{self.unit}/({below})"
+        if below == "-":
+            return self.unit
+        return f"{self.unit}/{below}" if below.isalnum() else f"{self.unit}/({below})"
 
     def relative(self, path: str) -> float:
         """Relative change of the number per relative change of a parameter: d ln J/d ln theta [-].
