@@ -95,6 +95,7 @@ if TYPE_CHECKING:
     from .planning import plan
     from .scene.asperity_population import AsperityPopulation
     from .scene.faces import Recess, SealedHole, Vent
+    from .scene.gradient import Gradient
     from .scene.interface import Body, Interface
     from .scene.loading import (
         Approach,
@@ -154,7 +155,6 @@ if TYPE_CHECKING:
     from .shortcuts.menisci import bridge_force, capillary_force
     from .shortcuts.squeeze import squeeze_time
     from .studies.estimate import plan_study
-    from .studies.gradients.gradient import Gradient
     from .studies.sensitivity import Range, sensitivity
     from .studies.sobol import sobol_indices
     from .studies.stream import stream_study
@@ -193,8 +193,8 @@ _HOMES = {
     "FrictionCoupling": "contact.effects.friction",
     "FrictionTraction": "contact.effects.friction",
     "Functional": "contact.functionals",
-    "Gradient": "studies.gradients.gradient",
     "GaussianRoughness": "scene.rough_surfaces",
+    "Gradient": "scene.gradient",
     "HalfSpace": "contact.effects.elasticity",
     "HardnessLimit": "contact.effects.plasticity",
     "ConstantHardness": "contact.effects.hardness_rules",
@@ -347,8 +347,8 @@ __all__ = [
     "FrictionCoupling",
     "FrictionTraction",
     "Functional",
-    "Gradient",
     "GaussianRoughness",
+    "Gradient",
     "HalfSpace",
     "HardnessLimit",
     "HardnessMap",

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..contact.result import ContactResult
 from ..errors import DescriptionError
 from .maps import extent, hide_holes, place
 from .style import Axes, figure, legend
 
 if TYPE_CHECKING:
-    from ..studies.gradients.gradient import Gradient
+    from ..scene.gradient import Gradient
     from ..studies.sobol import SobolIndices
 
 __all__ = ["gradient_map", "relative_bars", "sobol_bars"]
@@ -26,8 +27,8 @@ _FIRST, _TOTAL = "#0072b2", "#e69f00"  # distinct to the colour-blind, and in gr
 def gradient_map(gradient: Gradient, ax: Axes | None = None) -> Axes:
     """Draw the slope over the height of each pixel; white where there is none."""
     contact, slopes = gradient.result, gradient.slopes.get("heights")
-    if contact is None or slopes is None:
-        raise DescriptionError("to", "heights", 'be asked for: result.gradient(of, "heights")')
+    if not isinstance(contact, ContactResult) or slopes is None:
+        raise DescriptionError("to", "heights", 'be given: result.gradient(of, "heights")')
     ax = ax if ax is not None else figure()[1]
     around, unit = extent(contact)
     values = np.asarray(slopes)

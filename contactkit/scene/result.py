@@ -21,7 +21,7 @@ from .scales import Scaled, Scales
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..studies.gradients.gradient import Gradient
+    from .gradient import Gradient
 
 __all__ = ["Result"]
 

@@ -2,6 +2,8 @@
 
 study        `study`: a scene solved over a grid of parameter values.
 sensitivity  `sensitivity`: what each assumption does to a quantity over its plausible range.
+sobol        `sobol_indices`: which assumptions the variance of a quantity comes from.
+gradients    Gradients of numbers of a result, behind ``result.gradient``.
 table        The result of a study: points, columns, table and file.
 stream       `stream_study`: a study of many points, written to a file as they are solved.
 study_file   File of such a study, a SQLite database, read column by column.

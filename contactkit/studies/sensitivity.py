@@ -302,7 +302,7 @@ def sensitivity(
 
 
 class Answers(NamedTuple):
-    """Answers of scenes, why some have none, and the name and the unit of what was asked."""
+    """Answers of scenes, why some have none, and the name and the unit of the quantity."""
 
     results: list[float]
     messages: list[str]

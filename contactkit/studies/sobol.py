@@ -27,6 +27,8 @@ _CONFIDENCE = 0.95  # of the intervals, the usual level
 # Resamples of the bootstrap: ends of intervals repeat to a tenth of their width. Twice as many cost
 # twice the 0.2 s. Those of scipy (BCa) are nan where an assumption has no part at all.
 _RESAMPLES = 400
+# Of the scrambled sequence and of the resamples: any is as good, and one gives the same every time.
+_SEED = 0
 _Interval = tuple[float, float]
 
 
@@ -102,7 +104,6 @@ def sobol_indices(
     accuracy: Accuracy | None = None,
     *,
     n: int = 64,
-    seed: int = 0,
     unit: str | None = None,
     workers: int = 1,
     progress: Callable[[float], None] | None = None,
@@ -123,9 +124,8 @@ def sobol_indices(
         As of `sensitivity`.
     n : int
         Samples of each of the two matrices, a power of 2. The intervals state the error of the
-        indices, which falls about as 1/n; 64 tell large from small.
-    seed : int
-        Of the scrambled sequence.
+        indices, which falls about as 1/n; 64 tell large from small. The scrambled sequence is the
+        same every time.
 
     Returns
     -------
@@ -168,7 +168,7 @@ def sobol_indices(
     spans = _spans(scene, accuracy or Accuracy.standard, ranges)
     d = len(spans)
     sobol: Any = stats.qmc.Sobol
-    both = sobol(d=2 * d, seed=seed).random(n)
+    both = sobol(d=2 * d, seed=_SEED).random(n)
     a, b = both[:, :d], both[:, d:]
     samples = [a, b]
     for i in range(d):
@@ -179,7 +179,7 @@ def sobol_indices(
     found = answers(scene, rows, quantity, accuracy, unit=unit, workers=workers, progress=progress)
     results = np.array(found.results, dtype=np.float64)
     _check_known(results, found.messages)
-    return _indices(tuple(spans), results.reshape(d + 2, n), (found.name, found.unit), seed)
+    return _indices(tuple(spans), results.reshape(d + 2, n), (found.name, found.unit))
 
 
 def _spans(
@@ -217,9 +217,7 @@ def _check_known(results: Any, messages: list[str]) -> None:
     )
 
 
-def _indices(
-    paths: tuple[str, ...], results: Any, named: tuple[str, str], seed: int
-) -> SobolIndices:
+def _indices(paths: tuple[str, ...], results: Any, named: tuple[str, str]) -> SobolIndices:
     sampled = results[:2].ravel()
     mean, deviation = float(sampled.mean()), float(sampled.std())
     n = results.shape[1]
@@ -227,7 +225,7 @@ def _indices(
         nothing, none = (0.0,) * len(paths), ((0.0, 0.0),) * len(paths)
         return SobolIndices(*named, paths, nothing, nothing, none, none, mean, deviation, n)
     first, total = _estimated(results)
-    draws = np.random.default_rng(seed).integers(n, size=(_RESAMPLES, n))
+    draws = np.random.default_rng(_SEED).integers(n, size=(_RESAMPLES, n))
     again = np.array([_estimated(results[:, draw]) for draw in draws])
     tail = 0.5 * (1.0 - _CONFIDENCE)
     low, high = np.quantile(again, (tail, 1.0 - tail), axis=0)

@@ -51,7 +51,7 @@ PAGES: Mapping[str, Page] = {
     ),
     "bridges": Page("bridges.md and its picture", 1, _measured("bridges")),
     "films": Page("films.md and its pictures, fmu-native.md: cavities", 3, _measured("films")),
-    "gradients": Page("img/gradient-*.png", 0.2, (("gradient_pictures.py",),)),
+    "gradients": Page("img/gradient-*.png", 0.2, (("gradients",),)),
     "deforming": Page("img/deforming-pull.png", 0.3, (("deforming",),)),
     "adhesion": Page("adhesion.md and its picture", 10, _measured("adhesion")),
     "claims": Page("errata.md: statements of chapter 2", 3, _measured("claims")),

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from ...errors import DescriptionError
-from ...studies.gradients.gradient import Gradient
+from ...scene.gradient import Gradient
 from ...studies.sensitivity import Sensitivity
 from ...studies.sobol import SobolIndices
 from ...studies.table import Study
@@ -118,7 +118,7 @@ class GradientFigures(Figures[Gradient]):
         Raises
         ------
         DescriptionError
-            If the slopes over the heights were not asked for.
+            If the gradient is not over the heights.
         """
         return gradient_map(self._owner, ax)
 

@@ -13,8 +13,8 @@ from ...contact.grid import combined_heights
 from ...contact.plan import ContactPlan, unprepared_plan
 from ...contact.solver.convolution import Convolution
 from ...errors import NotSimulatedError
+from ...scene.gradient import HEIGHTS, Gradient
 from .differences import Differences, differences, parameter
-from .gradient import HEIGHTS, Gradient
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -88,6 +88,7 @@ def contact_gradient(result: ContactResult, of: str | Functional, to: Sequence[s
         {HEIGHTS: "m"} | {one.path: one.unit for one in numbers},
         notes,
         n_operator_applications=n_applications,
+        grid=plan.grid,
         result=result,
     )
 

@@ -36,7 +36,7 @@ class Parameter(NamedTuple):
 
 
 class Differences(NamedTuple, Generic[T]):
-    """What a scene is prepared to at values of a parameter, and the weights of their difference."""
+    """Preparations of a scene at values of a parameter, and the weights of their difference."""
 
     prepared: tuple[T, ...]
     weights: tuple[float, ...]

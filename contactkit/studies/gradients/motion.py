@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ...errors import DescriptionError, NotSimulatedError, nearest
+from ...scene.gradient import Gradient
 from ...scene.loading import ImposedForce
 from ...separation.motion.sensitivity import Variation, motion_slopes
 from ...separation.motion_curves import pull_law
@@ -12,7 +13,6 @@ from ...separation.plan import Plan, plan
 from ...separation.prescribed import impulses_of_gaps
 from ...separation.simulate import simulate
 from .differences import Differences, differences, parameter
-from .gradient import Gradient
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

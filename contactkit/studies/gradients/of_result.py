@@ -8,9 +8,9 @@ from typing import Any
 from ...contact.functionals import Functional
 from ...contact.result import ContactResult
 from ...errors import DescriptionError, NotSimulatedError
+from ...scene.gradient import Gradient
 from ...scene.result import Result
 from ...separation.results import SeparationResult
-from .gradient import Gradient
 
 __all__ = ["gradient_of"]
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import field, frozen
 
-from ...errors import DescriptionError, nearest
-from ...scene.tabular import Contents, Quantity, Tabular, pixel_axes
-from ...units import quantity_text
+from ..errors import DescriptionError, nearest
+from ..units import quantity_text
+from .tabular import Contents, Quantity, Tabular, pixel_axes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...contact.result import ContactResult
+    from .window import Grid
 
     Map = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ HEIGHTS = "heights"
 
 @frozen(eq=False)
 class Gradient(Tabular):
-    """A number of a result, and its slope over each parameter that was asked for.
+    """A number of a result, and its slope over each of some parameters.
 
     ``gradient["loading.pressure"]`` is a slope in SI units, and ``gradient["heights"]`` a map of
     them: of the number per height of each pixel.
@@ -61,8 +61,10 @@ class Gradient(Tabular):
     notes: tuple[str, ...] = ()
     n_operator_applications: int = 0
     n_steps: int = 0
-    result: ContactResult | None = field(default=None, repr=False)
-    """The contact, of which `plot.heights` takes the window."""
+    grid: Grid | None = field(default=None, repr=False)
+    """Pixels of the window of a contact."""
+    result: object | None = field(default=None, repr=False)
+    """The contact, whose window `plot.heights` draws."""
 
     def __getitem__(self, path: str) -> Any:
         """Return the slope over a parameter.
@@ -70,11 +72,11 @@ class Gradient(Tabular):
         Raises
         ------
         DescriptionError
-            If it was not asked for.
+            If the gradient is not over it.
         """
         if path not in self.slopes:
             hint = nearest(path, self.slopes)
-            raise DescriptionError("to", path, "be a parameter that was asked for", hint=hint)
+            raise DescriptionError("to", path, "be a parameter of the gradient", hint=hint)
         return self.slopes[path]
 
     @property
@@ -133,9 +135,8 @@ class Gradient(Tabular):
             "relative": Quantity(axis, np.array([self.relative(p) for p in paths]), "-"),
             self.quantity: Quantity((), self.value, self.unit),
         }
-        if HEIGHTS in self.slopes and self.result is not None:
-            grid = self.result.plan.grid
-            found |= dict(pixel_axes(grid.shape, grid.pixel_size))
+        if HEIGHTS in self.slopes and self.grid is not None:
+            found |= dict(pixel_axes(self.grid.shape, self.grid.pixel_size))
             unit = self.slope_unit(HEIGHTS)
             found["by_heights"] = Quantity(("y", "x"), self.slopes[HEIGHTS], unit)
         remarks = {"title": f"gradient of {self.quantity}", "notes": "\n".join(self.notes)}

@@ -1,4 +1,4 @@
-"""Pictures of the how-to on gradients: ``python docs/scripts/gradient_pictures.py``."""
+"""Pictures of the how-to on gradients: ``python docs/scripts/gradients``."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from contactkit.plot import style
 from contactkit.studies.sobol import SobolIndices
 from contactkit.units import GPa, nm, um
 
-IMG = Path(__file__).parents[1] / "img"
+IMG = Path(__file__).parents[2] / "img"
 NAMES = {
     "interface.upper.surface.rms": "rms height",
     "interface.lower.solid.substrate.young_modulus": "modulus of the substrate",
