@@ -1,16 +1,15 @@
-"""Figures of a study and of a sensitivity, ``study.plot``."""
+"""Figures of studies, in memory or in a file, and of a sensitivity, ``study.plot``."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
 
 from ...errors import DescriptionError
 from ...scene.gradient import Gradient
+from ...studies.columns import StudyColumns
 from ...studies.sensitivity import Sensitivity
 from ...studies.sobol import SobolIndices
-from ...studies.table import Study
 from ..axis_units import axis_label, readable
 from ..gradient import gradient_map, relative_bars, sobol_bars
 from ..study import study_curves
@@ -21,8 +20,8 @@ from .base import Figures, registered_figures
 __all__ = ["GradientFigures", "SensitivityFigures", "SobolFigures", "StudyFigures"]
 
 
-@registered_figures.register(Study)
-class StudyFigures(Figures[Study[Any]]):
+@registered_figures.register(StudyColumns)
+class StudyFigures(Figures[StudyColumns]):
     """Figures of the numbers of a study over its parameters."""
 
     def pictures(self) -> dict[str, Callable[[], Axes]]:
@@ -152,7 +151,7 @@ class SobolFigures(Figures[SobolIndices]):
         return sobol_bars(self._owner, ax, names)
 
 
-def _of_parameter(study: Study[Any], path: str) -> tuple[float, str]:
+def _of_parameter(study: StudyColumns, path: str) -> tuple[float, str]:
     """Factor and name of the unit of a parameter; of one that is no number, none."""
     values = study.column(path)
     return readable(study.unit(path), values) if values.dtype.kind == "f" else (1.0, "-")
