@@ -357,7 +357,7 @@ def test_slopes_as_tables():
     frame = gradient.to_dataframe()
     assert frame["slope"].tolist() == [gradient["loading.pressure"]]
     assert gradient.to_xarray()["by_heights"].shape == (N, N)
-    with pytest.raises(ck.DescriptionError, match="asked for"):
+    with pytest.raises(ck.DescriptionError, match="be a parameter of the gradient"):
         gradient["loading.force"]
     with pytest.raises(ck.DescriptionError, match="relative change of a map"):
         gradient.relative("heights")

@@ -6,18 +6,17 @@ from collections.abc import Callable, Mapping
 from functools import partial
 
 from ...errors import DescriptionError
-from ...scene.gradient import Gradient
 from ...studies.columns import StudyColumns
 from ...studies.sensitivity import Sensitivity
 from ...studies.sobol import SobolIndices
 from ..axis_units import axis_label, readable
-from ..gradient import gradient_map, relative_bars, sobol_bars
+from ..gradient import sobol_bars
 from ..study import study_curves
 from ..style import Axes, figure, legend
 from ..tornado import tornado
 from .base import Figures, registered_figures
 
-__all__ = ["GradientFigures", "SensitivityFigures", "SobolFigures", "StudyFigures"]
+__all__ = ["SensitivityFigures", "SobolFigures", "StudyFigures"]
 
 
 @registered_figures.register(StudyColumns)
@@ -91,47 +90,6 @@ class SensitivityFigures(Figures[Sensitivity]):
         """
         found: Sensitivity = self._owner
         return tornado(found, ax, most=most, names=names, missing=missing)
-
-
-@registered_figures.register(Gradient)
-class GradientFigures(Figures[Gradient]):
-    """Figures of the slopes of a number."""
-
-    def pictures(self) -> dict[str, Callable[[], Axes]]:
-        """See `Figures.pictures`: those of the slopes that were asked for."""
-        found: dict[str, Callable[[], Axes]] = {}
-        if "heights" in self._owner.slopes:
-            found["heights"] = self.heights
-        if self._owner.bases:
-            found["relative"] = self.relative
-        return found
-
-    def heights(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the slope over the height of each pixel.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Where to draw; a new figure if not given.
-
-        Raises
-        ------
-        DescriptionError
-            If the gradient is not over the heights.
-        """
-        return gradient_map(self._owner, ax)
-
-    def relative(self, *, names: Mapping[str, str] | None = None, ax: Axes | None = None) -> Axes:
-        """Draw the relative change of the number per relative change of each parameter.
-
-        Parameters
-        ----------
-        names : mapping, optional
-            What to call the parameters, by path; else the end of the path.
-        ax : Axes, optional
-            Where to draw; a new figure if not given.
-        """
-        return relative_bars(self._owner, ax, names)
 
 
 @registered_figures.register(SobolIndices)
