@@ -72,6 +72,7 @@ if TYPE_CHECKING:
     from .contact.effects.plastic_history import PlasticHistory
     from .contact.effects.plasticity import HardnessLimit
     from .contact.effects.stress import SubsurfaceStress
+    from .contact.functionals import Functional, Slopes
     from .contact.plan import ContactPlan
     from .contact.press import press
     from .contact.result import ContactResult
@@ -94,6 +95,7 @@ if TYPE_CHECKING:
     from .planning import plan
     from .scene.asperity_population import AsperityPopulation
     from .scene.faces import Recess, SealedHole, Vent
+    from .scene.gradient import Gradient
     from .scene.interface import Body, Interface
     from .scene.loading import (
         Approach,
@@ -155,6 +157,7 @@ if TYPE_CHECKING:
     from .shortcuts.squeeze import squeeze_time
     from .studies.estimate import plan_study
     from .studies.sensitivity import Range, sensitivity
+    from .studies.sobol import sobol_indices
     from .studies.stream import stream_study
     from .studies.study import study
     from .studies.study_file import StudyFile
@@ -191,7 +194,9 @@ _HOMES = {
     "Flat": "scene.surfaces",
     "FrictionCoupling": "contact.effects.friction",
     "FrictionTraction": "contact.effects.friction",
+    "Functional": "contact.functionals",
     "GaussianRoughness": "scene.rough_surfaces",
+    "Gradient": "scene.gradient",
     "HalfSpace": "contact.effects.elasticity",
     "HardnessLimit": "contact.effects.plasticity",
     "ConstantHardness": "contact.effects.hardness_rules",
@@ -254,6 +259,7 @@ _HOMES = {
     "SlidingPlan": "separation.sliding.plan",
     "SlidingResult": "separation.sliding.result",
     "SlidingScene": "scene.scenes",
+    "Slopes": "contact.functionals",
     "Sphere": "scene.surfaces",
     "SpringSlider": "analyses.stick_slip",
     "Stack": "scene.materials",
@@ -301,6 +307,7 @@ _HOMES = {
     "save_scene": "files.scenes",
     "sensitivity": "studies.sensitivity",
     "simulate": "separation.simulate",
+    "sobol_indices": "studies.sobol",
     "solve": "contact.solve",
     "squeeze_time": "shortcuts.squeeze",
     "stick_slip": "analyses.stick_slip",
@@ -343,7 +350,9 @@ __all__ = [
     "Flat",
     "FrictionCoupling",
     "FrictionTraction",
+    "Functional",
     "GaussianRoughness",
+    "Gradient",
     "HalfSpace",
     "HardnessLimit",
     "HardnessMap",
@@ -400,6 +409,7 @@ __all__ = [
     "SlidingPlan",
     "SlidingResult",
     "SlidingScene",
+    "Slopes",
     "SolidContact",
     "Sphere",
     "SpringSlider",
@@ -447,6 +457,7 @@ __all__ = [
     "save_scene",
     "sensitivity",
     "simulate",
+    "sobol_indices",
     "solve",
     "squeeze_time",
     "stick_slip",

@@ -172,6 +172,10 @@ MADE = {
     "sensitivity": lambda: ck.sensitivity(
         rough(), {"loading.pressure": (1e5, 2e5)}, "contact_area", GRID
     ),
+    "gradient": lambda: ck.solve(ck.plan(rough(), GRID)).gradient("load", "loading.pressure"),
+    "sobol": lambda: ck.sobol_indices(
+        rough(), {"loading.pressure": (1e5, 2e5)}, "contact_area", GRID, n=2
+    ),
     "load curve": lambda: ck.load_curve(ck.plan(rough(), GRID), pressures=[1e5, 2e5]),
     "load-displacement curve": lambda: ck.load_displacement(rough(), points=4, accuracy=GRID),
     "humidity curve": lambda: ck.humidity_curve(sphere(ck.MeniscusForce()), [0.2, 0.5]),
