@@ -89,6 +89,10 @@ if TYPE_CHECKING:
     from .files.curves import SavedCurve, read_curve
     from .files.results import load_result, save_result
     from .files.scenes import load_liquid, load_material, load_scene, save_scene
+    from .fitting.data import MeasuredBound, MeasuredCurve
+    from .fitting.fit import fit
+    from .fitting.parameters import Prior
+    from .fitting.result import Fit
     from .kinds import EFFECTS, KINDS, register
     from .liquids.liquid import Liquid
     from .planning import plan
@@ -186,6 +190,7 @@ _HOMES = {
     "ExponentialAttraction": "contact.effects.attraction_laws",
     "FilmMeniscus": "contact.effects.film",
     "FilmStatus": "separation.effects.base",
+    "Fit": "fitting.result",
     "Flat": "scene.surfaces",
     "FrictionCoupling": "contact.effects.friction",
     "FrictionTraction": "contact.effects.friction",
@@ -216,6 +221,8 @@ _HOMES = {
     "Liquid": "liquids.liquid",
     "Material": "scene.materials",
     "Measured": "scene.rough_surfaces",
+    "MeasuredBound": "fitting.data",
+    "MeasuredCurve": "fitting.data",
     "Meniscus": "scene.meniscus",
     "MeniscusForce": "separation.effects.meniscus",
     "MotionState": "separation.motion.state",
@@ -229,6 +236,7 @@ _HOMES = {
     "PlasticHistory": "contact.effects.plastic_history",
     "Polygon": "scene.planforms",
     "Pressing": "scene.loading",
+    "Prior": "fitting.parameters",
     "Pull": "separation.motion.state",
     "Range": "studies.sensitivity",
     "Recess": "scene.faces",
@@ -276,6 +284,7 @@ _HOMES = {
     "divide_meniscus": "analyses.division",
     "divide_sliding": "separation.sliding.plan",
     "equilateral_triangle": "scene.planforms",
+    "fit": "fitting.fit",
     "humidity_curve": "analyses.humidity_curve",
     "load_curve": "analyses.load_curve",
     "load_displacement": "analyses.load_displacement.solve",
@@ -336,6 +345,7 @@ __all__ = [
     "ExponentialAttraction",
     "FilmMeniscus",
     "FilmStatus",
+    "Fit",
     "Flat",
     "FrictionCoupling",
     "FrictionTraction",
@@ -363,6 +373,8 @@ __all__ = [
     "Material",
     "MaterialHardness",
     "Measured",
+    "MeasuredBound",
+    "MeasuredCurve",
     "Meniscus",
     "MeniscusForce",
     "MotionState",
@@ -377,6 +389,7 @@ __all__ = [
     "Polygon",
     "PressAndPull",
     "Pressing",
+    "Prior",
     "Pull",
     "Range",
     "Recess",
@@ -421,6 +434,7 @@ __all__ = [
     "divide_meniscus",
     "divide_sliding",
     "equilateral_triangle",
+    "fit",
     "humidity_curve",
     "load_curve",
     "load_displacement",
