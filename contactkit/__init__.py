@@ -89,9 +89,12 @@ if TYPE_CHECKING:
     from .files.curves import SavedCurve, read_curve
     from .files.results import load_result, save_result
     from .files.scenes import load_liquid, load_material, load_scene, save_scene
+    from .fitting.compare import compare_fits
     from .fitting.data import MeasuredBound, MeasuredCurve
     from .fitting.fit import fit
+    from .fitting.fit_file import read_fit
     from .fitting.parameters import Prior
+    from .fitting.readers import read_force_curve, read_measured_curve
     from .fitting.result import Fit
     from .kinds import EFFECTS, KINDS, register
     from .liquids.liquid import Liquid
@@ -278,6 +281,7 @@ _HOMES = {
     "advance": "separation.motion.advance",
     "bridge_force": "shortcuts.menisci",
     "capillary_force": "shortcuts.menisci",
+    "compare_fits": "fitting.compare",
     "contact_area": "shortcuts.contact_area",
     "critical_meniscus": "analyses.division",
     "discretisation_error": "contact.discretisation",
@@ -302,6 +306,9 @@ _HOMES = {
     "release_over": "analyses.deforming.release",
     "stiction_table": "analyses.deforming.stiction",
     "read_curve": "files.curves",
+    "read_fit": "fitting.fit_file",
+    "read_force_curve": "fitting.readers",
+    "read_measured_curve": "fitting.readers",
     "register": "kinds",
     "save_result": "files.results",
     "save_scene": "files.scenes",
@@ -428,6 +435,7 @@ __all__ = [
     "advance",
     "bridge_force",
     "capillary_force",
+    "compare_fits",
     "contact_area",
     "critical_meniscus",
     "discretisation_error",
@@ -450,6 +458,9 @@ __all__ = [
     "pull_off_curve",
     "pull_off_over_speed",
     "read_curve",
+    "read_fit",
+    "read_force_curve",
+    "read_measured_curve",
     "register",
     "release_over",
     "save_result",

@@ -9,4 +9,9 @@ search      Residuals, derivatives and the search for the minimum.
 intervals   Intervals from the covariance or the profile likelihood.
 verdict     What the data decide, what they do not, what the model misses, in words.
 result      Result of a fit: values, intervals, verdicts, residuals, the fitted scene.
+profile     Profile likelihood of a parameter.
+posterior   Posterior, by the ensemble sampler of emcee.
+compare     `compare_fits`: which of several models the data ask for.
+readers     Measured curves from CSV files, data frames, datasets, results and AFM files.
+fit_file    Files of fits.
 """

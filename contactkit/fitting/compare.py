@@ -123,8 +123,8 @@ def compare_fits(fits: Mapping[str, Fit]) -> FitComparison:
 
     Notes
     -----
-    Burnham and Anderson (2002). The criterion compares models; it does not state that one of them is
-    right: `Fit.misfit` does.
+    Burnham and Anderson (2002). The criterion compares models and does not state that one of them
+    is right: `Fit.misfit` does.
     """
     if not isinstance(fits, Mapping) or len(fits) < 2:
         raise DescriptionError("fits", fits, "be at least two fits by the names of their models")

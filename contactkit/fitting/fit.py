@@ -133,7 +133,7 @@ def fit(
     >>> found = ck.fit(scene, curve,
     ...     {"interface.meniscus.liquid.viscosity": ck.Range("10 mPa.s", "10 Pa.s")})
     >>> found["viscosity"].text, found.status
-    ('200 mPa.s (199.3 to 200.7)', 'decided')
+    ('200 mPa.s (199.5 to 200.5)', 'decided')
     """
     begun = time.perf_counter()
     settings = accuracy if accuracy is not None else _settings(scene)
@@ -217,7 +217,7 @@ def _searched(
             break
         noise = again
         best = minimum(Problem(model, noise, count), best.place)
-    return noise, best
+    return noise, minimum(Problem(model, noise, count), best.place, is_central=True)
 
 
 def _best_of(problem: Problem, start: Floats, starts: int) -> Found:
@@ -271,7 +271,7 @@ def _intervals(
                 for i in range(len(model.parameters))
             )
         except BetterFitError as error:
-            best = minimum(problem, error.place)
+            best = minimum(problem, error.place, is_central=True)
             noise = _noise(problem, best, n_data)
             continue
         return problem, best, linear, ends, factor

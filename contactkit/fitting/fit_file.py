@@ -10,13 +10,13 @@ from attrs import asdict
 
 from ..accuracy import Accuracy
 from ..errors import ContactkitError, DescriptionError
+from ..files.curves import read_validity
 from ..files.results import save_npz
 from ..files.scenes import read_scene, scene_kind, unstructure
 from ..reading.archives import UNREADABLE
 from ..reading.arrays import read_arrays
 from ..reading.texts import from_json
 from ..scene.scenes import Scene
-from ..validity import ValidityNumber
 from .result import Fit, FittedCurve, FittedParameter, FitWork
 
 if TYPE_CHECKING:
@@ -124,7 +124,7 @@ def _unpacked(header: dict[str, Any], columns: Arrays, name: str) -> Fit:
         int(header["dof"]),
         np.inf if aicc is None else float(aicc),
         tuple(map(_text, header["undecided"])),
-        tuple(_validity(one) for one in header["validity"]),
+        tuple(read_validity(one) for one in header["validity"]),
         tuple(map(_text, header["sources"])),
         FitWork(**{key: _number(value) for key, value in header["work"].items()}),
         bool(header["has_converged"]),
@@ -144,11 +144,15 @@ def _number(value: Any) -> Any:
 
 
 def _parameter(fields: dict[str, Any]) -> FittedParameter:
-    texts = {key: _text(fields[key]) for key in ("name", "unit", "verdict", "decided_by", "reason")}
-    numbers = {key: float(_number(fields[key])) for key in ("value", "low", "high")}
     low, high = map(_number, fields["bounds"])
-    choices = {key: bool(fields[key]) for key in ("is_profile", "is_log")}
-    return FittedParameter(**texts, **numbers, **choices, bounds=(low, high))
+    known: dict[str, Any] = {"bounds": (float(low), float(high))}
+    for key in ("name", "unit", "verdict", "decided_by", "reason"):
+        known[key] = _text(fields[key])
+    for key in ("value", "low", "high"):
+        known[key] = float(_number(fields[key]))
+    for key in ("is_profile", "is_log"):
+        known[key] = bool(fields[key])
+    return FittedParameter(**known)
 
 
 def _curve(fields: dict[str, Any], columns: Arrays, n_parameters: int) -> FittedCurve:
@@ -157,17 +161,7 @@ def _curve(fields: dict[str, Any], columns: Arrays, n_parameters: int) -> Fitted
         shape = (n, n_parameters) if name == "fractions" else (n,)
         if column.shape != shape or column.dtype.kind != "f":
             raise ValueError(f"{name} of shape {column.shape}")
-    texts = {key: _text(fields[key]) for key in _TEXTS}
     first, second = map(_text, fields["units"])
-    return FittedCurve(
-        **texts, **columns, units=(first, second), is_estimated=bool(fields["is_estimated"])
-    )
-
-
-def _validity(fields: dict[str, Any]) -> ValidityNumber:
-    for key in ("name", "detail", "source"):
-        _text(fields[key])
-    for key in ("value", "low", "high"):
-        if key != "value" or fields[key] is not None:
-            _number(fields[key])
-    return ValidityNumber(**fields)
+    known: dict[str, Any] = {"units": (first, second), **columns}
+    known |= {key: _text(fields[key]) for key in _TEXTS}
+    return FittedCurve(**known, is_estimated=bool(fields["is_estimated"]))

@@ -44,11 +44,11 @@ class Prediction(NamedTuple):
 class _Place(NamedTuple):
     """Where the nuisances of a curve are among the parameters, or their values."""
 
-    index: Mapping[str, int]
+    sought: Mapping[str, int]
     fixed: Mapping[str, float]
 
     def value(self, name: str, values: Sequence[float]) -> float:
-        return values[self.index[name]] if name in self.index else self.fixed[name]
+        return values[self.sought[name]] if name in self.sought else self.fixed[name]
 
 
 class Model:
@@ -90,7 +90,8 @@ class Model:
         self.n_runs = 0
         self._outcomes: OrderedDict[tuple[Any, ...], Outcome] = OrderedDict()
         self._known = set(paths_of(scene))
-        self._sets = [self._read_sets(one) for one in (*curves, *bounds)]
+        self._data: list[MeasuredCurve | MeasuredBound] = [*curves, *bounds]
+        self._sets = [self._read_sets(one) for one in self._data]
         self._paths = [self._path(curve) for curve in curves]
         self._names = self._grouped()
         self.units = self._units()
@@ -121,7 +122,7 @@ class Model:
     def _grouped(self) -> list[tuple[str, ...]]:
         """Names to read from the run of each curve and bound; what shares runs shares them."""
         keys, names = [], dict[str, dict[str, None]]()
-        for i, one in enumerate((*self.curves, *self.bounds)):
+        for i, one in enumerate(self._data):
             path = self._paths[i] if i < len(self.curves) else ""
             keys.append(repr((path, sorted(self._sets[i].items()))))
             wanted = names.setdefault(keys[-1], {})
@@ -133,7 +134,7 @@ class Model:
     def _units(self) -> list[tuple[str, str]]:
         """SI units of axis and quantity of each curve and bound, those of the data checked."""
         found, outcomes = [], self.outcomes([one.start for one in self.parameters])
-        for one, outcome in zip((*self.curves, *self.bounds), outcomes, strict=True):
+        for one, outcome in zip(self._data, outcomes, strict=True):
             unit = outcome.units[one.quantity]
             if isinstance(one, MeasuredBound):
                 found.append(("", unit))
@@ -147,7 +148,7 @@ class Model:
     def _check_springs(self) -> None:
         """Refuse a spring between what is no force over a distance."""
         for place, curve, units in zip(self._places, self.curves, self.units, strict=False):
-            has_spring = "stiffness" in place.index or math.isfinite(place.fixed["stiffness"])
+            has_spring = "stiffness" in place.sought or math.isfinite(place.fixed["stiffness"])
             if has_spring and (units != ("m", "N") or curve.over in self._known):
                 hint = f"{curve.quantity} is in {units[1]}, {curve.over} in {units[0]}"
                 expected = "belong to a column of a force [N] over one of a distance [m]"
@@ -222,7 +223,7 @@ class Model:
             return None
         found, predicted = [], self.predict(values)
         for place, readings in zip(self._places, predicted.readings, strict=True):
-            if place.index.get(name) != i:
+            if place.sought.get(name) != i:
                 found.append(np.zeros_like(readings))
             elif name == "zero":
                 found.append(np.ones_like(readings))
@@ -266,7 +267,7 @@ class Model:
     def outcomes(self, values: Sequence[float]) -> list[Outcome]:
         """Outcome of the run of each curve and bound; over a path, of its first position."""
         base, found = self.changes(values), []
-        for i, one in enumerate((*self.curves, *self.bounds)):
+        for i, one in enumerate(self._data):
             changes = {**base, **self._sets[i]}
             if isinstance(one, MeasuredCurve) and self._paths[i]:
                 changes[self._paths[i]] = float(one.x[0])
@@ -330,7 +331,7 @@ def _read_off(
 ) -> Floats:
     """Column at the positions of the drive, which a spring connects with the body."""
     at = axis + column / stiffness
-    rises = at[-1] >= at[0]
+    rises = axis[-1] >= axis[0]
     at = at if rises else -at
     wanted = x if rises else -x
     # States behind the furthest so far are not stable: the spring jumps over them.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -46,7 +47,7 @@ def solver_of(scene: Any, accuracy: Accuracy, solve: Solve | None) -> Solve:
     if solve is not None:
         return solve
     if isinstance(scene, Scene):
-        return lambda one: run(plan(one, accuracy))  # type: ignore[call-overload]
+        return lambda one: run(plan(one, accuracy))
     if hasattr(scene, "report"):
         return lambda one: one.report.run(one, None, lambda done: None).scalars
     expected = "be a scene or a device; for anything else give solve=, a function of it"
@@ -84,7 +85,8 @@ def _one(answer: Any, name: str) -> tuple[Any, str]:
         if name in columns and isinstance(answer, Result | Curve):
             return np.array(answer[name], dtype=np.float64), answer.unit(name)
         if name not in numbers and isinstance(answer, Result):
-            answer[name]  # refused with the effect to add, where one would give it
+            with suppress(DescriptionError):
+                answer[name]  # refused with the effect to add, where one would give it
     elif isinstance(answer, Mapping):
         numbers, columns = answer, ()
     else:

@@ -133,7 +133,7 @@ def sampled(
     margin = 1e-6 * problem.width
     first = np.clip(first, problem.ends[0] + margin, problem.ends[1] - margin)
     sampler = emcee.EnsembleSampler(walkers, n, log_probability)
-    sampler.random_state = np.random.RandomState(seed).get_state()  # noqa: NPY002 - what emcee takes
+    sampler.random_state = np.random.RandomState(seed).get_state()
     sampler.run_mcmc(first, n_steps)
     times = sampler.get_autocorr_time(tol=0, quiet=True)
     chain = sampler.get_chain(discard=int(_BEGINNING * n_steps), flat=True)

@@ -201,8 +201,13 @@ class Found(NamedTuple):
     has_converged: bool
 
 
-def minimum(problem: Problem, start: Floats, fixed: Sequence[int] = ()) -> Found:
+def minimum(
+    problem: Problem, start: Floats, fixed: Sequence[int] = (), *, is_central: bool = False
+) -> Found:
     """Least squares from a start; some coordinates may be held.
+
+    Forward differences put the minimum to some 3 % of a standard deviation, central ones to less
+    than 1 %.
 
     The method is the trust region of Branch, Coleman and Li (1999) in `scipy.optimize`, which keeps
     the bounds; a step to a point without a result is shortened.
@@ -222,13 +227,19 @@ def minimum(problem: Problem, start: Floats, fixed: Sequence[int] = ()) -> Found
         place[free] = part
         return place
 
+    def residuals_of(part: Floats) -> Floats:
+        return problem.residuals(whole(part))
+
+    def slopes_of(part: Floats) -> Floats:
+        return problem.slopes(whole(part), is_central=is_central)[:, free]
+
     low, high = problem.ends[:, free]
     # Strictly inside, as the method needs: 1e-8 of the range changes no interval.
     margin = 1e-8 * (high - low)
     found = least_squares(
-        lambda part: problem.residuals(whole(part)),
+        residuals_of,
         np.clip(start[free], low + margin, high - margin),
-        jac=lambda part: problem.slopes(whole(part))[:, free],  # type: ignore[arg-type]
+        jac=slopes_of,
         bounds=(low, high),
         x_scale="jac",
         ftol=_FTOL,

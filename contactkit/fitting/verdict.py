@@ -167,7 +167,7 @@ def runs_of_signs(residuals: Floats) -> float:
     Examples
     --------
     >>> round(runs_of_signs(np.array([1.0] * 10 + [-1.0] * 10)), 2)
-    -4.13
+    -4.14
     """
     signs = residuals[residuals != 0.0] > 0.0
     n_up, n_down = int(signs.sum()), int((~signs).sum())
