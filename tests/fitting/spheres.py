@@ -1,4 +1,4 @@
-"""A sphere drawn off a wet flat: its scene, its closed form as a solver, and readings with noise."""
+"""A sphere drawn off a wet flat: its scene, its closed form as a solver, noisy readings."""
 
 from __future__ import annotations
 

@@ -35,6 +35,7 @@ FLOORS = [
     ["files"],
     ["analyses", "shortcuts"],
     ["studies"],
+    ["fitting"],
     ["plot"],
     ["models"],
     ["fmu"],

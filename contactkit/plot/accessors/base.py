@@ -25,7 +25,13 @@ __all__ = [
     "registered_figures",
 ]
 
-_ROOMS = ("analyses", "contact", "separation", "studies")  # each with a module of figures here
+_ROOMS = (
+    "analyses",
+    "contact",
+    "fitting",
+    "separation",
+    "studies",
+)  # each with a module of figures here
 
 T = TypeVar("T")
 C = TypeVar("C", bound=Tabular)
