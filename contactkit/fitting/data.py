@@ -11,9 +11,7 @@ from attrs import field, frozen
 
 from ..errors import DescriptionError
 from ..frozen import FrozenDict
-from ..studies.sensitivity import Range
 from ..units import parse_quantity, parse_unit
-from .parameters import Prior
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -207,9 +205,9 @@ class MeasuredCurve:
 
     @property
     def fitted(self) -> dict[str, Any]:
-        """Nuisances that are sought, by name."""
+        """Nuisances that are sought, by name: those with a `Range`, a pair or a `Prior`."""
         known = {name: getattr(self, name) for name in NUISANCES}
-        return {n: one for n, one in known.items() if isinstance(one, Range | Prior)}
+        return {n: one for n, one in known.items() if isinstance(one, tuple | list)}
 
     def nuisance(self, name: str, units: tuple[str, str]) -> float:
         """Value of a nuisance that is given, in SI units; `units` are those of axis and quantity.

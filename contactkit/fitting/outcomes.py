@@ -7,6 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from attrs import has
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, nearest
@@ -44,6 +45,8 @@ class Outcome(NamedTuple):
 
 def solver_of(scene: Any, accuracy: Accuracy, solve: Solve | None) -> Solve:
     """Return the function that runs a scene: the given one, its plan, or the report of a device."""
+    if not has(type(scene)):
+        raise DescriptionError("scene", scene, "be a scene, or that of a device")
     if solve is not None:
         return solve
     if isinstance(scene, Scene):

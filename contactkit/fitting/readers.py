@@ -251,9 +251,15 @@ def _afm(path: Path) -> list[Any]:
     """Curves of a file; what its reader raises names no cure of its own."""
     import afmformats
 
+    # Its own errors are not derived from `Exception`.
+    unreadable = tuple(
+        one
+        for one in vars(afmformats.errors).values()
+        if isinstance(one, type) and issubclass(one, BaseException)
+    )
     try:
         return list(afmformats.load_data(path, modality="force-distance"))
-    except Exception as error:  # noqa: BLE001 - of any of its formats
+    except (Exception, *unreadable) as error:  # noqa: BLE001 - of any of its formats
         hint = f"{type(error).__name__}: {error}"[:300]
         raise DescriptionError(
             "file", str(path), "be a force curve that afmformats reads", hint=hint

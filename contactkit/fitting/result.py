@@ -262,7 +262,9 @@ class Fit(Answer):
         found = found or [i for i, o in enumerate(names) if f".{o}".endswith(f".{name}")]
         if len(found) != 1:
             expected = "be one of the parameters" if not found else "name one parameter"
-            raise DescriptionError("parameter", name, expected, hint=nearest(name, names))
+            raise DescriptionError(
+                "parameter", name, expected, hint=nearest(name, short_names(names))
+            )
         return found[0]
 
     def scalars(self) -> dict[str, tuple[float, str]]:
