@@ -8,6 +8,7 @@ model       Runs read at the positions of the instrument, through a spring.
 search      Residuals, derivatives and the search for the minimum.
 intervals   Intervals from the covariance or the profile likelihood.
 verdict     What the data decide, what they do not, what the model misses, in words.
+fitted      Parts of the result: parameters with intervals, curves with residuals, cost.
 result      Result of a fit: values, intervals, verdicts, residuals, the fitted scene.
 profile     Profile likelihood of a parameter.
 posterior   Posterior, by the ensemble sampler of emcee.

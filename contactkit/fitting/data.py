@@ -100,8 +100,9 @@ class MeasuredCurve:
 
     Examples
     --------
-    >>> curve = MeasuredCurve(over="gap", at=[1.0, 2.0], quantity="pull", values=[30.0, 20.0],
-    ...     units=("um", "mN"), noise="2 %", shift=Range("-50 nm", "50 nm"))
+    >>> import contactkit as ck
+    >>> curve = ck.MeasuredCurve(over="gap", at=[1.0, 2.0], quantity="pull", values=[30.0, 20.0],
+    ...     units=("um", "mN"), noise="2 %", shift=ck.Range("-50 nm", "50 nm"))
     >>> curve.y.tolist(), curve.deviation("N").tolist()
     ([0.03, 0.02], [0.0006, 0.0004])
     """
@@ -263,7 +264,8 @@ class MeasuredBound:
 
     Examples
     --------
-    >>> MeasuredBound(quantity="release_time", least="2 ms", noise="0.1 ms").name
+    >>> import contactkit as ck
+    >>> ck.MeasuredBound(quantity="release_time", least="2 ms", noise="0.1 ms").name
     'bound'
     """
 

@@ -19,11 +19,12 @@ from ..studies.paths import changed
 from ..studies.study import check_whole
 from ..validity import ValidityNumber, note_worst
 from .data import MeasuredBound, MeasuredCurve
+from .fitted import FittedCurve, FittedParameter, FitWork, Searched
 from .intervals import BetterFitError, Interval, Linear, interval, level_factor, linearised
 from .model import Model
 from .outcomes import Solve, solver_of
 from .parameters import scene_parameters
-from .result import Fit, FittedCurve, FittedParameter, FitWork, Searched
+from .result import Fit
 from .search import Found, Problem, minimum
 from .verdict import decided_by, goodness, undecided, verdict_of
 
@@ -205,7 +206,7 @@ def _searched(
 ) -> tuple[tuple[float, ...], Found]:
     """Noise of each curve and the minimum; where noise is estimated, in turn."""
     first = Problem(model, [1.0] * len(model.curves), count)
-    first.strict_residuals(start)  # what is refused, or has no solution, says so
+    first.strict_residuals(start)  # what is refused, or has no solution, is raised
     noise = tuple(
         0.05 * float(np.sqrt(np.mean((c.y / d) ** 2))) + 1e-300 if c.is_estimated else 1.0
         for c, d in zip(model.curves, model.deviations, strict=True)

@@ -17,7 +17,8 @@ from ..reading.archives import UNREADABLE
 from ..reading.arrays import read_arrays
 from ..reading.texts import from_json
 from ..scene.scenes import Scene
-from .result import Fit, FittedCurve, FittedParameter, FitWork
+from .fitted import FittedCurve, FittedParameter, FitWork
+from .result import Fit
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

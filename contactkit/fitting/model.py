@@ -120,7 +120,7 @@ class Model:
         return curve.over if curve.over in self._known else ""
 
     def _grouped(self) -> list[tuple[str, ...]]:
-        """Names to read from the run of each curve and bound; what shares runs shares them."""
+        """Names to read from the run of each curve and bound; those of one run together."""
         keys, names = [], dict[str, dict[str, None]]()
         for i, one in enumerate(self._data):
             path = self._paths[i] if i < len(self.curves) else ""

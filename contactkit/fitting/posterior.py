@@ -12,7 +12,7 @@ from ..extras import require
 from ..scene.curve import Curve, Shown
 from ..studies.study import check_whole
 from ..validity import ValidityNumber
-from .result import FittedParameter, Searched, short_names
+from .fitted import FittedParameter, Searched, short_names
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

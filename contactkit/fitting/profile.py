@@ -11,8 +11,8 @@ from attrs import field, frozen
 from ..errors import ContactkitError
 from ..scene.curve import Curve, Shown
 from ..studies.study import check_whole
+from .fitted import FittedParameter, Searched, short_names
 from .intervals import profiled
-from .result import FittedParameter, Searched, short_names
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

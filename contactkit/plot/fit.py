@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..fitting.result import Fit, FittedCurve, short_names
+from ..fitting.fitted import FittedCurve, short_names
+from ..fitting.result import Fit
 from .axis_units import axis_label, readable
 from .curves import log_where_wide
 from .style import Axes, figure, legend, series

@@ -76,27 +76,37 @@ def test_bounded_on_one_side_only():
 
 @pytest.mark.slow
 def test_volume_and_angle_of_a_bridge_far_from_rupture():
-    """Close to the sphere the force hangs on the angles, hardly on the volume."""
+    """Close to the sphere either fits the force; far enough the volume shows."""
     oil = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
-    angle = "interface.meniscus.contact_angle_upper"
+    angle, volume = "interface.meniscus.contact_angle_upper", "interface.meniscus.volume"
     film = ck.Meniscus(liquid=oil, volume=2e-12, contact_angle_lower=0.3, contact_angle_upper=0.3)
     scene = ck.SeparationScene(
         interface=ck.Interface(upper=ck.Sphere(radius=1e-3), meniscus=film),
-        loading=ck.ImposedSpeed(speed=1e-6, initial_gap=5e-8, final_gap=4e-6),
+        loading=ck.ImposedSpeed(speed=1e-6, initial_gap=5e-8, final_gap=1e-5),
         effects=(ck.MeniscusForce(profile="arc"),),
     )
     made = ck.simulate(ck.plan(scene, ck.Accuracy(curve_rtol=1e-4)))
-    gap = np.linspace(1e-7, 6e-7, 15)
-    force = np.interp(gap, made.gap, made["meniscus_force"])
-    noise = 1.0 + 0.01 * np.random.default_rng(2).standard_normal(gap.size)
-    data = ck.MeasuredCurve(
-        over="gap", at=gap, quantity="meniscus_force", values=force * noise, noise="1 %"
-    )
-    ranges = {"interface.meniscus.volume": ("0.5 nL", "10 nL"), angle: ("5 deg", "60 deg")}
-    found = ck.fit(scene, data, ranges, intervals="linear")
-    assert found.status == "not identifiable"
-    assert not found["volume"].is_decided
-    assert "volume" in found.message
+    noise = 1.0 + 0.01 * np.random.default_rng(2).standard_normal(15)
+    ranges = {volume: ("0.5 nL", "10 nL"), angle: ("5 deg", "60 deg")}
+
+    def fitted(last):
+        gap = np.linspace(1e-7, last, 15)
+        force = np.interp(gap, made.gap, made["meniscus_force"]) * noise
+        data = ck.MeasuredCurve(
+            over="gap", at=gap, quantity="meniscus_force", values=force, noise="1 %"
+        )
+        return ck.fit(scene, data, ranges, intervals="linear")
+
+    near = fitted(3e-7)
+    assert near.status == "not identifiable"
+    assert f"{volume} and {angle} are not identifiable each" in near.undecided[0]
+    assert not near["volume"].is_decided
+    assert not near[angle].is_decided
+    far = fitted(9e-6)
+    assert far.status == "decided"
+    assert abs(np.log(far["volume"].value / 2e-12)) < 0.1
+    assert far[angle].low < 0.33
+    assert far[angle].high > 0.27
 
 
 def test_a_model_that_cannot_reach_the_data_is_reported():
