@@ -327,7 +327,7 @@ def _result(
         best.chi2,
         dof,
         _aicc(problem, best, n_data),
-        tuple(undecided(model.parameters, linear, factor)),
+        tuple(undecided(model.parameters, values, linear, factor)),
         (*good, *validity),
         (*sources, *_STATISTICS),
         work,

@@ -252,14 +252,11 @@ def _afm(path: Path) -> list[Any]:
     import afmformats
 
     # Its own errors are not derived from `Exception`.
-    unreadable = tuple(
-        one
-        for one in vars(afmformats.errors).values()
-        if isinstance(one, type) and issubclass(one, BaseException)
-    )
+    own = [one for one in vars(afmformats.errors).values() if isinstance(one, type)]
+    unreadable: tuple[type[BaseException], ...] = (Exception, *own)
     try:
         return list(afmformats.load_data(path, modality="force-distance"))
-    except (Exception, *unreadable) as error:  # noqa: BLE001 - of any of its formats
+    except unreadable as error:
         hint = f"{type(error).__name__}: {error}"[:300]
         raise DescriptionError(
             "file", str(path), "be a force curve that afmformats reads", hint=hint

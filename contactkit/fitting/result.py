@@ -111,10 +111,10 @@ class Fit(Answer):
         if open_ones or self.undecided:
             which = ", ".join(open_ones) if open_ones else "a combination of parameters"
             return (
-                f"{head}: {which} not identifiable from these data; measure it otherwise (a "
+                f"{head}: not identifiable from these data: {which}; measure it otherwise (a "
                 "Prior), hold it, or add a curve under other conditions"
             )
-        return f"{head}, all decided by the data"
+        return f"{head}, all decided"
 
     def __getitem__(self, name: str) -> FittedParameter:
         """Return a parameter by its path, or by an end of it that no other has.
@@ -217,9 +217,8 @@ class Fit(Answer):
         width = max((len(one.name) for one in self.parameters), default=0)
         for one in self.parameters:
             lines.append(f"  {one.name:{width}s}  {one.text}")
-            lines.append(f"  {'':{width}s}  {one.verdict}")
-            if one.decided_by:
-                lines.append(f"  {'':{width}s}  by {one.decided_by}")
+            by = f" by {one.decided_by}" if one.decided_by else ""
+            lines.append(f"  {'':{width}s}  {one.verdict}{by}")
         return "\n".join(lines)
 
     def correlations(self, above: float = 0.9) -> list[str]:

@@ -42,7 +42,7 @@ def verdict_of(
         return "not identifiable from these data: it does not change what was measured"
     low, high = interval.low, interval.high
     if not low.is_open and not high.is_open:
-        return "decided by the data"
+        return "decided"
     reasons = dict.fromkeys(
         names[j] for end in (low, high) for j in end.held_by if names[j] != parameter.name
     )
@@ -55,11 +55,13 @@ def verdict_of(
     return f"bounded by the data on one side only: {side} the interval ends at a bound{through}"
 
 
-def undecided(parameters: Sequence[Parameter], linear: Linear, factor: float) -> list[str]:
+def undecided(
+    parameters: Sequence[Parameter], values: Sequence[float], linear: Linear, factor: float
+) -> list[str]:
     """Combinations of parameters that the data leave open, in words.
 
-    A combination is left open if the data leave more of it than the ranges do; of two parameters
-    that are fitted by their logarithms it is a product of powers, and the one across it is decided.
+    A combination is left open if the data leave more of it than the ranges do; of two positive
+    parameters it is a product of powers, and the one across it is decided.
     """
     found = []
     for singular, direction in zip(linear.singular, linear.directions, strict=True):
@@ -68,53 +70,59 @@ def undecided(parameters: Sequence[Parameter], linear: Linear, factor: float) ->
         largest = float(np.max(np.abs(direction)))
         named = [i for i in range(len(parameters)) if abs(direction[i]) >= _NAMED * largest]
         if len(named) > 1:
-            found.append(_combination(parameters, linear, factor, named, direction))
+            found.append(_combination(parameters, values, linear, factor, (named, direction)))
     return found
 
 
 def _combination(
     parameters: Sequence[Parameter],
+    values: Sequence[float],
     linear: Linear,
     factor: float,
-    named: Sequence[int],
-    direction: Floats,
+    which: tuple[Sequence[int], Floats],
 ) -> str:
     """Parameters that change together without effect; of two, also what of them is decided."""
-    which = [parameters[i] for i in named]
-    text = " and ".join(one.name for one in which)
-    widths = np.array([one.ends[1] - one.ends[0] for one in which])
-    moves = direction[list(named)] * widths  # in coordinates
-    if len(which) != 2:
+    named, direction = which
+    text = " and ".join(parameters[i].name for i in named)
+    widths = np.array([one.ends[1] - one.ends[0] for one in parameters])
+    # Changes of the logarithms, or of the values where one may be zero, with the coordinates.
+    is_product = all(parameters[i].low > 0.0 for i in named)
+    rates = np.array(
+        [
+            one.slope(one.scaled(value)) / (value if is_product else 1.0)
+            for one, value in zip(parameters, values, strict=True)
+        ]
+    )
+    moves = direction * widths * rates
+    if len(named) != 2 or not is_product:
         parts = ", ".join(
-            f"{one.short} {move:+.2g}" for one, move in zip(which, moves, strict=True)
+            f"{parameters[i].short} {moves[i]:+.2g}{'' if is_product else ' ' + parameters[i].unit}"
+            for i in named
         )
+        how = " of their logarithms" if is_product else ""
         return (
-            f"{text} are not identifiable together: the data do not change where they move by "
-            f"{parts} (logarithms, or in their ranges)"
+            f"{text} are not identifiable each from these data: they do not decide where these "
+            f"move together, by {parts}{how}"
         )
-    first, second = which
-    if first.is_log and second.is_log:
-        power = -moves[0] / moves[1]
-        known = f"{first.short} * {second.short}^{power:.3g}"
-    else:
-        ratio = moves[0] * first.slope(first.scaled(first.start))
-        ratio /= moves[1] * second.slope(second.scaled(second.start))
-        known = f"{first.short} {-ratio:+.3g} {first.unit}/({second.unit}) * {second.short}"
+    i, j = named
+    power = -moves[i] / moves[j]
     across = np.zeros(len(parameters))
-    across[named[0]], across[named[1]] = 1.0, -moves[0] / moves[1]
-    # Variance across the open direction, from the directions that the data decide.
-    spread = math.sqrt(_variance_across(linear, across, parameters))
-    width = f" to {100.0 * factor * spread:.2g} %" if first.is_log and second.is_log else ""
+    across[i], across[j] = rates[i], power * rates[j]
+    spread = _deviation_across(linear, across * widths)
+    known = f"{parameters[i].short} * {parameters[j].short}^{power:.3g}"
+    percent = f"{100.0 * factor * spread:.2g} %"
     return (
-        f"{text} are not identifiable each from these data; what the data decide is {known}{width}"
+        f"{text} are not identifiable each from these data; what the data decide is {known} "
+        f"to {percent}"
     )
 
 
-def _variance_across(linear: Linear, across: Floats, parameters: Sequence[Parameter]) -> float:
-    widths = np.array([one.ends[1] - one.ends[0] for one in parameters])
-    along = linear.directions @ (across * widths)
-    weights = np.where(linear.singular > 1.0 / _OF_RANGE, 1.0, 0.0)
-    return float(np.sum(weights * (along / np.maximum(linear.singular, 1e-300)) ** 2))
+def _deviation_across(linear: Linear, across: Floats) -> float:
+    """Standard deviation of a combination, from the directions that the data decide."""
+    along = linear.directions @ across
+    is_decided = linear.singular > 1.0 / _OF_RANGE
+    parts = np.where(is_decided, along / np.where(is_decided, linear.singular, 1.0), 0.0)
+    return float(np.linalg.norm(parts))
 
 
 def decided_by(

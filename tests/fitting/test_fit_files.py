@@ -170,7 +170,7 @@ def test_the_command_line_fits_a_scene_file(tmp_path, capsys):
     assert numbers["viscosity"]["value"] == pytest.approx(0.2, rel=0.01)
     out = tmp_path / "out"
     assert main([*given, "--out", str(out)]) == 0
-    assert "decided by the data" in capsys.readouterr().out
+    assert "decided by gap" in capsys.readouterr().out
     assert {one.name for one in out.iterdir()} >= {"fit.npz", "fitted.toml", "fit-data.png"}
     assert ck.load_scene(out / "fitted.toml").interface.meniscus.liquid.viscosity > 0.1
     assert main([*given[:-1], "loading.speed:1..2"]) == 2
