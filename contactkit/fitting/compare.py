@@ -137,7 +137,7 @@ def compare_fits(fits: Mapping[str, Fit]) -> FitComparison:
             raise DescriptionError("fits", name, f"be of the same data as {first!r}")
     infinite = [name for name, one in fits.items() if not math.isfinite(one.aicc)]
     if infinite:
-        hint = "a fit needs at least two readings more than parameters to be compared"
+        hint = "it takes two readings more than parameters, an estimated noise among these"
         raise DescriptionError("fits", ", ".join(infinite), "have a criterion", hint=hint)
     order = sorted(fits, key=lambda name: fits[name].aicc)
     aicc = np.array([fits[name].aicc for name in order])

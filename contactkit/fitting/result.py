@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from attrs import field, frozen
+from attrs import field, fields, frozen
 
 from .._lazy import above
 from ..accuracy import Accuracy
@@ -320,6 +320,7 @@ class Fit(Answer):
             )
         return self.searched
 
-    def units_of(self) -> Mapping[str, str]:
-        """SI unit of each parameter, by its path."""
-        return {one.name: one.unit for one in self.parameters}
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle and copy what a file holds, without the runs, whose functions stay here."""
+        names = [one.name for one in fields(type(self)) if one.name != "searched"]
+        return type(self), tuple(getattr(self, name) for name in names)

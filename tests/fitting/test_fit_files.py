@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 
 import numpy as np
 import pytest
@@ -124,6 +125,9 @@ def test_a_fit_is_saved_whole(tmp_path):
         assert (one.fractions == other.fractions).all()
     assert again.to_xarray().equals(found.to_xarray())
     refuses(lambda: again.profile("viscosity"), "call ck.fit again", error=ck.NotSimulatedError)
+    copied = pickle.loads(pickle.dumps(found))
+    assert copied.searched is None
+    assert str(copied) == str(found)
     again.plot.data()
     again.plot.correlation()
     refuses(lambda: ck.load_result(tmp_path / "fit.npz"), "be a result of contactkit")
