@@ -86,6 +86,7 @@ def test_curves_of_several_speeds_share_the_parameters():
     assert ratio == pytest.approx(np.sqrt(2.0), rel=0.05)  # twice the data
 
 
+@pytest.mark.slow
 def test_a_number_over_a_field_of_the_scene():
     """Release times over the pull: a run for each."""
     oil = ck.Liquid(name="oil", viscosity=0.1)
@@ -110,6 +111,7 @@ def test_a_number_over_a_field_of_the_scene():
     )
 
 
+@pytest.mark.slow
 def test_a_modulus_from_the_approach_of_a_contact():
     """Loads of a sphere over its approach, as a contact is solved; Hertz in the data."""
     solid = ck.Material(young_modulus=2e9, poisson_ratio=0.3)
@@ -244,6 +246,7 @@ def test_branches_of_a_curve_that_turns_back():
         assert ck.fit(sphere(), data, {}, solve=lambda _: loop)["scale"].value == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_a_second_minimum_is_found_from_several_starts():
     x = np.linspace(0.0, 10.0, 60)
 

@@ -32,6 +32,7 @@ def test_csv_files_with_units_in_their_head(tmp_path, separator):
     assert (found.units, found.name, found.noise) == (("um", "uN"), "pull 1", "1 %")
 
 
+@pytest.mark.slow
 def test_arrays_frames_datasets_and_results():
     pd, xr = pytest.importorskip("pandas"), pytest.importorskip("xarray")
     units = {"gap": "um", "force": "uN"}
@@ -161,6 +162,7 @@ def test_tables_of_a_fit():
     assert dir(found.plot)
 
 
+@pytest.mark.slow
 def test_the_command_line_fits_a_scene_file(tmp_path, capsys):
     ck.save_scene(sphere(), tmp_path / "film.toml")
     rows = "".join(f"{1e6 * g},{1e6 * f}\n" for g, f in zip(GAP, readings(), strict=True))
