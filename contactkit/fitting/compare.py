@@ -64,10 +64,11 @@ class FitComparison(Tabular):
         else:
             text = f"the data ask for {first}; {second} has no support"
         text += f" (AICc behind by {behind:.3g})"
-        if not self.outside[0]:
-            return text
-        numbers = "; ".join(f"{v.name} = {v.value:.3g}, {v.bounds}" for v in self.outside[0])
-        return f"{text}; but {first} is out of its range there: {numbers}"
+        for i, name in enumerate(self.names):
+            if self.outside[i]:
+                found = (f"{v.name} = {v.value:.3g}, {v.bounds}" for v in self.outside[i])
+                text += f"; {name} is out of its range there: {', '.join(found)}"
+        return text
 
     def table(self) -> str:
         """Return a line for each model as text."""

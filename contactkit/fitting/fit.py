@@ -6,6 +6,7 @@ import math
 import time
 import warnings
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -14,6 +15,7 @@ from scipy.stats import qmc
 
 from ..accuracy import Accuracy
 from ..errors import ContactkitError, ConvergenceError, DescriptionError, ValidityWarning
+from ..planning import plan, run
 from ..scene.scenes import ContactScene, Scene
 from ..studies.paths import changed
 from ..studies.study import check_whole
@@ -22,7 +24,7 @@ from .data import MeasuredBound, MeasuredCurve
 from .fitted import FittedCurve, FittedParameter, FitWork, Searched
 from .intervals import BetterFitError, Interval, Linear, interval, level_factor, linearised
 from .model import Model
-from .outcomes import Solve, solver_of
+from .outcomes import Solve, outcome_of, solver_of
 from .parameters import scene_parameters
 from .result import Fit
 from .search import Found, Problem, minimum
@@ -141,9 +143,9 @@ def fit(
     check_whole("starts", starts, 1)
     if intervals not in ("auto", "profile", "linear"):
         raise DescriptionError("intervals", intervals, "be 'auto', 'profile' or 'linear'")
-    run = solver_of(scene, settings, solve)
+    solver = solver_of(scene, settings, solve)
     sought = scene_parameters(scene, settings, parameters)
-    model = Model(scene, settings, run, sought, _data(data), nuisance or {})
+    model = Model(scene, settings, solver, sought, _data(data), nuisance or {})
     n_data, count = _checked(model, parameters), _Count()
     start = np.array([one.scaled(one.start) for one in model.parameters])
     noise, best = _searched(model, start, n_data, starts, count)
@@ -368,13 +370,20 @@ def _curves(
 def _stated(
     model: Model, values: Sequence[float]
 ) -> tuple[tuple[ValidityNumber, ...], tuple[str, ...]]:
-    """Worst validity numbers and all sources of the fitted runs."""
+    """Worst validity numbers and all sources of the fitted runs.
+
+    Where curves of an analysis state none, those of the fitted scene itself, which is run once.
+    """
     worst, sources = dict[str, ValidityNumber](), dict[str, None]()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
-        for outcome in model.outcomes(values):
-            note_worst(worst, outcome.validity)
-            sources |= dict.fromkeys(outcome.sources)
+    outcomes = model.outcomes(values)
+    if isinstance(model.scene, Scene) and not any(one.validity for one in outcomes):
+        scene = changed(model.scene, model.accuracy, model.changes(values)).scene
+        with suppress(ContactkitError), warnings.catch_warnings():
+            warnings.simplefilter("ignore", ValidityWarning)
+            outcomes.append(outcome_of(run(plan(scene, model.accuracy)), ()))  # type: ignore[call-overload]
+    for outcome in outcomes:
+        note_worst(worst, outcome.validity)
+        sources |= dict.fromkeys(outcome.sources)
     return tuple(worst.values()), tuple(sources)
 
 

@@ -154,6 +154,43 @@ def test_models_are_compared_by_their_criterion():
     assert one.aicc == pytest.approx(by_hand)
 
 
+def test_the_tabor_parameter_stands_beside_the_comparison_of_adhesive_contacts():
+    """Radii of a JKR contact at a Tabor parameter of 14: DMT misses them, out of its range."""
+    loads, at = np.linspace(-1e-6, 6e-6, 25), np.linspace(0.0, 5e-6, 12)
+
+    def contact(model, work=0.03):
+        effect = ck.AdhesiveContact(
+            model=model, work_of_adhesion=work, reduced_modulus=1e7, strength=1e7
+        )
+        air = ck.Meniscus(liquid=ck.Liquid(name="air"))
+        return ck.SeparationScene(
+            interface=ck.Interface(upper=ck.Sphere(radius=1e-5), meniscus=air),
+            loading=ck.ImposedSpeed(initial_gap=3e-9, final_gap=1e-6, speed=1e-6),
+            effects=(effect,),
+        )
+
+    truth = ck.adhesion_curve(contact("jkr", 0.05), loads)
+    radii = np.interp(at, truth["load"], truth["contact_radius"])
+    noise = 1.0 + 0.01 * np.random.default_rng(0).standard_normal(at.size)
+    data = ck.MeasuredCurve(
+        over="load", at=at, quantity="contact_radius", values=radii * noise, noise="1 %"
+    )
+    path = "effects.adhesive-contact.work_of_adhesion"
+    fits = {
+        model: ck.fit(
+            contact(model), data, {path: ("5 mJ/m2", "0.5 J/m2")},
+            solve=lambda scene: ck.adhesion_curve(scene, loads),
+        )
+        for model in ("jkr", "dmt")
+    }  # fmt: skip
+    one = fits["jkr"]["work_of_adhesion"]
+    assert abs(one.value - 0.05) < 1.5 * (one.high - one.low)
+    found = ck.compare_fits(fits)
+    assert found.names[0] == "jkr"
+    assert "dmt is out of its range there: Tabor parameter = 8" in found.verdict
+    assert "jkr is out" not in found.verdict
+
+
 def test_a_profile_rises_by_one_at_the_ends_of_the_interval():
     found = ck.fit(sphere(), measured(shift=("-1 um", "1 um")), SOUGHT, solve=closed)
     one = found.profile("viscosity", n=9, reach=1.0)
