@@ -380,7 +380,7 @@ def _stated(
         scene = changed(model.scene, model.accuracy, model.changes(values)).scene
         with suppress(ContactkitError), warnings.catch_warnings():
             warnings.simplefilter("ignore", ValidityWarning)
-            outcomes.append(outcome_of(run(plan(scene, model.accuracy)), ()))  # type: ignore[call-overload]
+            outcomes.append(outcome_of(run(plan(scene, model.accuracy)), ()))
     for outcome in outcomes:
         note_worst(worst, outcome.validity)
         sources |= dict.fromkeys(outcome.sources)
