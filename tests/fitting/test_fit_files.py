@@ -124,18 +124,29 @@ def test_a_fit_is_saved_whole(tmp_path):
     for one, other in zip(again.curves, found.curves, strict=True):
         assert (one.residuals == other.residuals).all()
         assert (one.fractions == other.fractions).all()
-    assert again.to_xarray().equals(found.to_xarray())
     refuses(lambda: again.profile("viscosity"), "call ck.fit again", error=ck.NotSimulatedError)
     copied = pickle.loads(pickle.dumps(found))
     assert copied.searched is None
     assert str(copied) == str(found)
-    again.plot.data()
-    again.plot.correlation()
     refuses(lambda: ck.load_result(tmp_path / "fit.npz"), "be a result of contactkit")
     refuses(lambda: ck.read_fit(made_curve(tmp_path)), "be a fit of contactkit", "'curve'")
     damaged = tmp_path / "cut.npz"
     damaged.write_bytes((tmp_path / "fit.npz").read_bytes()[:300])
     refuses(lambda: ck.read_fit(damaged), "be a fit of contactkit")
+
+
+@pytest.mark.slow
+def test_a_fit_that_was_read_draws_and_becomes_a_dataset(tmp_path):
+    found = ck.fit(sphere(), measured(), SOUGHT, solve=closed)
+    again = ck.read_fit(found.save(tmp_path / "fit"))
+    assert again.to_xarray().equals(found.to_xarray())
+    assert again.plot.available == ("data", "residuals", "information", "correlation")
+    (line,) = [one for one in again.plot.data().lines if one.get_label() == "fitted"]
+    assert line.get_ydata() * 1e-6 == pytest.approx(found.curves[0].model)
+    (line,) = again.plot.information().lines
+    assert line.get_ydata().sum() == pytest.approx(100.0)
+    assert again.plot.residuals().get_ylabel() == "residual / noise"
+    assert again.plot.correlation().texts[0].get_text() == "+1.00"
 
 
 def made_curve(folder):
