@@ -120,6 +120,7 @@ if TYPE_CHECKING:
         Disc,
         Ellipse,
         Image,
+        ImageFile,
         Intersection,
         Planform,
         Polygon,
@@ -137,7 +138,7 @@ if TYPE_CHECKING:
         SelfAffineRoughness,
     )
     from .scene.scenes import ContactScene, SeparationScene, SlidingScene
-    from .scene.surfaces import Flat, Paraboloid, Sphere, Wave
+    from .scene.surfaces import FineRoughness, Flat, Paraboloid, Sphere, Wave
     from .scene.window import Window
     from .separation.deforming.effects import ElasticBodies, SolidContact
     from .separation.deforming.plan import DeformingPlan
@@ -193,6 +194,7 @@ _HOMES = {
     "ExponentialAttraction": "contact.effects.attraction_laws",
     "FilmMeniscus": "contact.effects.film",
     "FilmStatus": "separation.effects.base",
+    "FineRoughness": "scene.surfaces",
     "Fit": "fitting.result",
     "Flat": "scene.surfaces",
     "FrictionCoupling": "contact.effects.friction",
@@ -207,6 +209,7 @@ _HOMES = {
     "HardnessMap": "contact.effects.hardness_rules",
     "Heights": "scene.rough_surfaces",
     "Image": "scene.planforms",
+    "ImageFile": "scene.planforms",
     "ImposedForce": "scene.loading",
     "ImposedSpeed": "scene.loading",
     "ImposedTime": "scene.loading",
@@ -352,6 +355,7 @@ __all__ = [
     "ExponentialAttraction",
     "FilmMeniscus",
     "FilmStatus",
+    "FineRoughness",
     "Fit",
     "Flat",
     "FrictionCoupling",
@@ -362,6 +366,7 @@ __all__ = [
     "HardnessMap",
     "Heights",
     "Image",
+    "ImageFile",
     "ImposedForce",
     "ImposedSpeed",
     "ImposedTime",

@@ -49,6 +49,20 @@ def test_every_study_can_be_measured_and_no_scene_has_its_name():
         table.study_of("slips")
 
 
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["hertzz"], "did you mean 'hertz'"),  # a study
+        (["fuel-injektor"], "did you mean 'fuel-injector'"),  # a scene
+        (["?"], "small-opening"),  # all of them, hard cases too
+        (["slip", "--set", "loading.force=1"], "settings are of a scene"),
+    ],
+)
+def test_a_name_that_has_no_cost_is_refused(words, message, capsys):
+    assert main(["cost", *words]) == 2
+    assert message in capsys.readouterr().err
+
+
 def test_a_hard_case_is_run_by_its_name(capsys):
     assert main(["cost", "small-opening"]) == 0
     text = capsys.readouterr().out
