@@ -48,7 +48,7 @@ def save_fit(fit: Fit, path: str | Path) -> Path:
     header = {
         "kind": "fit",
         "scene": unstructure(fit.scene) if isinstance(fit.scene, Scene) else None,
-        "accuracy": unstructure(fit.accuracy),
+        "accuracy": fit.accuracy.saved(),
         "parameters": [asdict(one) for one in fit.parameters],
         "curves": [
             {name: getattr(curve, name) for name in _TEXTS}
@@ -117,7 +117,7 @@ def _unpacked(header: dict[str, Any], columns: Arrays, name: str) -> Fit:
     aicc = header["aicc"]
     return Fit(
         scene,
-        Accuracy(**header["accuracy"]),
+        Accuracy.of_file(header["accuracy"]),
         parameters,
         curves,
         correlation,
