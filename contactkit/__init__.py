@@ -90,6 +90,13 @@ if TYPE_CHECKING:
     from .files.curves import SavedCurve, read_curve
     from .files.results import load_result, save_result
     from .files.scenes import load_liquid, load_material, load_scene, save_scene
+    from .fitting.compare import compare_fits
+    from .fitting.data import MeasuredBound, MeasuredCurve
+    from .fitting.fit import fit
+    from .fitting.fit_file import read_fit
+    from .fitting.parameters import Prior
+    from .fitting.readers import read_force_curve, read_measured_curve
+    from .fitting.result import Fit
     from .kinds import EFFECTS, KINDS, register
     from .liquids.liquid import Liquid
     from .planning import plan
@@ -191,6 +198,7 @@ _HOMES = {
     "FilmMeniscus": "contact.effects.film",
     "FilmStatus": "separation.effects.base",
     "FineRoughness": "scene.surfaces",
+    "Fit": "fitting.result",
     "Flat": "scene.surfaces",
     "FrictionCoupling": "contact.effects.friction",
     "FrictionTraction": "contact.effects.friction",
@@ -224,6 +232,8 @@ _HOMES = {
     "Liquid": "liquids.liquid",
     "Material": "scene.materials",
     "Measured": "scene.rough_surfaces",
+    "MeasuredBound": "fitting.data",
+    "MeasuredCurve": "fitting.data",
     "Meniscus": "scene.meniscus",
     "MeniscusForce": "separation.effects.meniscus",
     "MotionState": "separation.motion.state",
@@ -237,6 +247,7 @@ _HOMES = {
     "PlasticHistory": "contact.effects.plastic_history",
     "Polygon": "scene.planforms",
     "Pressing": "scene.loading",
+    "Prior": "fitting.parameters",
     "Pull": "separation.motion.state",
     "Range": "studies.sensitivity",
     "Recess": "scene.faces",
@@ -279,12 +290,14 @@ _HOMES = {
     "advance": "separation.motion.advance",
     "bridge_force": "shortcuts.menisci",
     "capillary_force": "shortcuts.menisci",
+    "compare_fits": "fitting.compare",
     "contact_area": "shortcuts.contact_area",
     "critical_meniscus": "analyses.division",
     "discretisation_error": "contact.discretisation",
     "divide_meniscus": "analyses.division",
     "divide_sliding": "separation.sliding.plan",
     "equilateral_triangle": "scene.planforms",
+    "fit": "fitting.fit",
     "humidity_curve": "analyses.humidity_curve",
     "load_curve": "analyses.load_curve",
     "load_displacement": "analyses.load_displacement.solve",
@@ -302,6 +315,9 @@ _HOMES = {
     "release_over": "analyses.deforming.release",
     "stiction_table": "analyses.deforming.stiction",
     "read_curve": "files.curves",
+    "read_fit": "fitting.fit_file",
+    "read_force_curve": "fitting.readers",
+    "read_measured_curve": "fitting.readers",
     "register": "kinds",
     "save_result": "files.results",
     "save_scene": "files.scenes",
@@ -347,6 +363,7 @@ __all__ = [
     "FilmMeniscus",
     "FilmStatus",
     "FineRoughness",
+    "Fit",
     "Flat",
     "FrictionCoupling",
     "FrictionTraction",
@@ -377,6 +394,8 @@ __all__ = [
     "Material",
     "MaterialHardness",
     "Measured",
+    "MeasuredBound",
+    "MeasuredCurve",
     "Meniscus",
     "MeniscusForce",
     "MotionState",
@@ -391,6 +410,7 @@ __all__ = [
     "Polygon",
     "PressAndPull",
     "Pressing",
+    "Prior",
     "Pull",
     "Range",
     "Recess",
@@ -430,12 +450,14 @@ __all__ = [
     "advance",
     "bridge_force",
     "capillary_force",
+    "compare_fits",
     "contact_area",
     "critical_meniscus",
     "discretisation_error",
     "divide_meniscus",
     "divide_sliding",
     "equilateral_triangle",
+    "fit",
     "humidity_curve",
     "load_curve",
     "load_displacement",
@@ -451,6 +473,9 @@ __all__ = [
     "pull_off_curve",
     "pull_off_over_speed",
     "read_curve",
+    "read_fit",
+    "read_force_curve",
+    "read_measured_curve",
     "register",
     "release_over",
     "save_result",

@@ -13,6 +13,7 @@ ABOVE = {
     "gradient_of": "studies.gradients.of_result",
     "figures_of": "plot.accessors.base",
     "save_curve": "files.curves",
+    "save_fit": "fitting.fit_file",
     "save_result": "files.results",
 }
 """Functions of rooms above that a result offers as a property or a method, with their modules.

@@ -68,6 +68,7 @@ TOPICS = (
             *_of("contactkit.contact", "patches", "plastic_history", "functionals", "adjoint"),
         ),
     ),
+    Topic("fits", "Fits", ("fitting",)),
     Topic("files", "Files", ("files",)),
     Topic(
         "pictures",

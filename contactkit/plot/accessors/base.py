@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 # Each has a module of figures here.
-_ROOMS = ("analyses", "contact", "scene", "separation", "studies")
+_ROOMS = ("analyses", "contact", "fitting", "scene", "separation", "studies")
 
 T = TypeVar("T")
 C = TypeVar("C", bound=Tabular)
