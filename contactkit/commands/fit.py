@@ -61,7 +61,7 @@ def fit(
     as_json: bool,
     **choices: Any,
 ) -> None:
-    """Fit parameters of a scene to a measured curve, and state what it decides.
+    """Fit parameters of a scene to a measured curve.
 
     SCENE is a scene file, or the name of a scene of contactkit.
     """
