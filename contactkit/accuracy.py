@@ -75,7 +75,8 @@ class Accuracy(Described):
         it decides how many cells there are. Of a separation.
     grid : int or (int, int), optional
         Pixels of the window of a contact, (ny, nx) or one number for both. None: those of the
-        measured surface, else 256.
+        measured surface, else 256. Also the cells over the film of `ElasticBodies` on a map; None:
+        those of the measured surface, else eight in the shortest wave, 64 to 512.
     rtol : float
         Maximum violation of the contact conditions, relative to the rms height of the surface
         [-]: overlap, or a gap under pressure. The tolerance of the outer iterations (hardness,
@@ -130,17 +131,20 @@ class Accuracy(Described):
         """Tolerance of the outer iterations, relative to the quantity they change [-]."""
         return min(100.0 * self.rtol, 0.1)
 
-    def foreign(self, kind: Literal["contact", "separation"]) -> str:
+    def foreign(
+        self, kind: Literal["contact", "separation"], *, takes_grid: bool = False
+    ) -> str:
         """Name of a setting that scenes of a kind do not read and that no level has; or empty.
 
-        A level, such as `draft`, sets both kinds, and fits either.
+        A level, such as `draft`, sets both kinds, and fits either. Some separations take `grid`.
         """
         levels = (Accuracy.draft, Accuracy.standard, Accuracy.reference)
         return next(
             (
                 name
                 for name in _READ_BY["separation" if kind == "contact" else "contact"]
-                if all(getattr(self, name) != getattr(level, name) for level in levels)
+                if not (takes_grid and name == "grid")
+                and all(getattr(self, name) != getattr(level, name) for level in levels)
             ),
             "",
         )

@@ -157,7 +157,8 @@ def check_accuracy(given: object, scene: Scene) -> None:
         raise PlanError(f"an Accuracy is needed beside the scene, got {given!r}; write {cure}")
     kind: Literal["contact", "separation"]
     kind = "contact" if isinstance(scene, ContactScene) else "separation"
-    if isinstance(given, Accuracy) and (name := given.foreign(kind)):
+    takes_grid = any(getattr(effect, "takes_grid", False) for effect in scene.effects)
+    if isinstance(given, Accuracy) and (name := given.foreign(kind, takes_grid=takes_grid)):
         raise PlanError(
             f"Accuracy.{name} = {getattr(given, name)!r} is not read by a {type(scene).__name__}: "
             "leave it out"

@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...errors import ConvergenceError
+from ...errors import ConvergenceError, DescriptionError
 from ...frozen import FrozenDict
 from ...lubrication.elastohydrodynamic.drive import Driven, Imposed
-from ...lubrication.elastohydrodynamic.motion import Motion, Phase, Profile, move
+from ...lubrication.elastohydrodynamic.motion import (
+    Motion,
+    Phase,
+    Profile,
+    SmoothGap,
+    move,
+    with_times,
+)
 from ...lubrication.elastohydrodynamic.step import StepFailedError
 from ...scene.loading import ImposedForce, ImposedSpeed, PressAndPull
 from ...units import quantity_text
@@ -26,37 +33,53 @@ from .validity import ranges
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ...lubrication.elastohydrodynamic.maps.motion import MapMotion
+
     Array = NDArray[np.float64]
 
-__all__ = ["pull_apart"]
+__all__ = ["not_followed", "outcome", "outcome_numbers", "phases", "pull_apart"]
 
 _POINTS = 40  # of the curve of an imposed speed, beside those that the steps add
 _SAME_GAP = 1e-9  # over the smallest: rings in contact differ by round-off
 _SHALLOW = 2.0  # times Hertz' approach, within which a pressed pair starts its pull
 
 
-def pull_apart(plan: DeformingPlan) -> DeformingResult:
+def pull_apart(plan: DeformingPlan, fields_at: Sequence[float] = ()) -> DeformingResult:
     """Run the plan.
+
+    Parameters
+    ----------
+    plan : DeformingPlan
+        What to run.
+    fields_at : sequence of float
+        Times [s] at which sections, and maps, are wanted exactly.
 
     Raises
     ------
     ConvergenceError
         If a step cannot be solved: a gap closes where nothing can touch.
+    DescriptionError
+        If a time is not within the motion.
     """
     begun = clock.perf_counter()
     film, loading = plan.film, plan.scene.loading
+    parts = phases(plan, fields_at)
     speed = max(characteristic_speed(plan.scene, film), _pressing_speed(plan))
+    if not isinstance(film, SmoothGap):
+        from .maps.run import pull_map_apart  # not of rings
+
+        return pull_map_apart(plan, parts, speed, fields_at)
     try:
-        motion = move(film, _phases(plan), speed=speed, elements=plan.elements)
+        motion = move(film, parts, speed=speed, elements=plan.elements)
     except StepFailedError as error:
-        raise ConvergenceError(
-            f"the film of deforming bodies could not be followed: {error} (units of "
-            f"{film.gap / speed:g} s); where the bodies close, list SolidContact(cutoff=...)"
-        ) from None
+        raise not_followed(error, f"units of {film.gap / speed:g} s") from None
     pulled = motion.end_times[0] if isinstance(loading, PressAndPull) else 0.0
-    columns = _columns(plan, motion)
-    numbers = _numbers(plan, motion, columns, pulled)
-    status, message = _outcome(plan, motion, columns, numbers)
+    columns = _columns(plan, film, motion)
+    numbers = outcome_numbers(plan, motion, columns, pulled) | {
+        "trapped_volume": _trapped(motion.profiles[int(np.abs(columns["time"] - pulled).argmin())]),
+        "force_error": motion.error,
+    }
+    status, message = outcome(columns, numbers)
     sections = {
         name: np.array([getattr(one, name) for one in motion.profiles]) for name in SECTIONS
     }
@@ -73,9 +96,18 @@ def pull_apart(plan: DeformingPlan) -> DeformingResult:
         message,
         FrozenDict(columns),
         FrozenDict(sections),
+        FrozenDict({}),
         FrozenDict(numbers),
         validity,
         work,
+    )
+
+
+def not_followed(error: StepFailedError, where: str) -> ConvergenceError:
+    """Error of a motion of which no step can be solved."""
+    return ConvergenceError(
+        f"the film of deforming bodies could not be followed: {error} ({where}); where the bodies "
+        "close, list SolidContact(cutoff=...)"
     )
 
 
@@ -88,11 +120,29 @@ def _pressing_speed(plan: DeformingPlan) -> float:
     return loading.press * film.gap**3 / (6.0 * math.pi * film.viscosity * film.width**4)
 
 
+def phases(plan: DeformingPlan, fields_at: Sequence[float] = ()) -> list[Phase]:
+    """Phases of the loading, with steps that end at some times [s].
+
+    Raises
+    ------
+    DescriptionError
+        If one of these times is not within the motion.
+    """
+    found = _phases(plan)
+    last = found[-1].times[-1]
+    for time in fields_at:
+        if not 0.0 <= time <= last:
+            raise DescriptionError(
+                "simulate.fields_at", time, f"lie within the motion, 0 to {last:g} s", unit="s"
+            )
+    return with_times(found, np.array([time for time in fields_at if time > 0.0]))
+
+
 def _phases(plan: DeformingPlan) -> list[Phase]:
     loading = plan.scene.loading
     if isinstance(loading, ImposedSpeed):
         length = (loading.final_gap - loading.initial_gap) / loading.speed
-        return [Phase(_at_speed(loading.speed), _times(0.0, length))]
+        return [Phase(_at_speed(loading.speed), _times(plan, 0.0, length))]
     if isinstance(loading, ImposedForce):
         return [Phase(_by_force(loading), [loading.time_limit], loading.final_gap)]
     assert isinstance(loading, PressAndPull)
@@ -102,17 +152,25 @@ def _phases(plan: DeformingPlan) -> list[Phase]:
     if loading.force is not None:
         pull = Driven(lambda _: loading.force or 0.0)
         return [pressing, Phase(lambda *_: pull, [end], loading.final_gap)]
-    speed, film = loading.speed or 0.0, plan.film
-    sunk = 0.0
-    if math.isfinite(film.radius):
-        sunk = _SHALLOW * hertz_approach(loading.press, film.radius, plan.modulus)
-    length = (loading.final_gap + sunk) / speed
-    times = _times(loading.rest, loading.rest + length)
+    speed = loading.speed or 0.0
+    length = (loading.final_gap + _sunk(plan, loading.press)) / speed
+    times = _times(plan, loading.rest, loading.rest + length)
     return [pressing, Phase(_at_speed(speed), times, loading.final_gap)]
 
 
-def _times(start: float, end: float) -> list[float]:
-    found: list[float] = np.linspace(start, end, _POINTS + 1)[1:].tolist()
+def _sunk(plan: DeformingPlan, press: float) -> float:
+    """Bound of how far a load presses the bodies into each other [m]."""
+    film = plan.film
+    if math.isfinite(film.radius):
+        return _SHALLOW * hertz_approach(press, film.radius, plan.modulus)
+    # On a map a flat is pressed in as a punch, and its asperities by less than the initial gap.
+    return 0.0 if isinstance(film, SmoothGap) else film.gap + press / (plan.modulus * film.rim)
+
+
+def _times(plan: DeformingPlan, start: float, end: float) -> list[float]:
+    """Points of the curve of an imposed speed; of a map those of the steps suffice."""
+    points = _POINTS if isinstance(plan.film, SmoothGap) else 1
+    found: list[float] = np.linspace(start, end, points + 1)[1:].tolist()
     return found
 
 
@@ -130,10 +188,9 @@ def _by_force(loading: ImposedForce) -> Callable[[float, float], Driven]:
     return lambda *_: driven
 
 
-def _columns(plan: DeformingPlan, motion: Motion) -> dict[str, Array]:
+def _columns(plan: DeformingPlan, film: SmoothGap, motion: Motion) -> dict[str, Array]:
     found = dict(motion.columns)
     found["wet_area"] = math.pi * found["rim_radius"] ** 2
-    film = plan.film
     if film.wetting is None:
         found["meniscus_force"] = np.zeros(len(found["time"]))
     else:
@@ -142,9 +199,25 @@ def _columns(plan: DeformingPlan, motion: Motion) -> dict[str, Array]:
     return {name: found[name] for name in plan.columns}
 
 
-def _numbers(
-    plan: DeformingPlan, motion: Motion, columns: Mapping[str, Array], pulled: float
+def outcome_numbers(
+    plan: DeformingPlan,
+    motion: Motion | MapMotion,
+    columns: Mapping[str, Array],
+    pulled: float,
 ) -> dict[str, float]:
+    """Numbers of a motion that follow from its curves, by their names.
+
+    Parameters
+    ----------
+    plan : DeformingPlan
+        The plan.
+    motion : Motion or MapMotion
+        How it ended.
+    columns : mapping of str to ndarray
+        Its curves.
+    pulled : float
+        When the pull began [s].
+    """
     time, pull = columns["time"], columns["pull"]
     during = time >= pulled
     force, at = _peak(time[during], pull[during])
@@ -152,7 +225,7 @@ def _numbers(
     is_at_end = isinstance(plan.scene.loading, ImposedSpeed)
     released = motion.is_over or is_at_end
     work = columns["work"]
-    rigid = 2.0 * math.pi * plan.numbers.tension * plan.film.width**2
+    rigid = plan.rigid_force
     return {
         "pull_off_force": force,
         "pull_off_time": at,
@@ -163,11 +236,10 @@ def _numbers(
         "hysteresis_loss": float(columns["dissipated_energy"][-1]),
         "largest_contact_force": float(columns["contact_force"].max()),
         "largest_tension": float(columns["largest_tension"].max()),
-        "trapped_volume": _trapped(motion.profiles[int(np.abs(time - pulled).argmin())]),
+        "trapped_volume": 0.0,
         "rupture_time": motion.rupture_time,
         "force_over_rigid": force / rigid if rigid > 0.0 else math.nan,
         "beta": plan.numbers.beta,
-        "force_error": motion.error,
     }
 
 
@@ -211,9 +283,8 @@ def _snap_off(columns: Mapping[str, Array], pulled: float) -> float:
     return 0.5 * float(time[k] + time[k + 1]) if rate[k] > 1.2 * moved[k] else math.nan
 
 
-def _outcome(
-    plan: DeformingPlan, motion: Motion, columns: Mapping[str, Array], numbers: Mapping[str, float]
-) -> tuple[str, str]:
+def outcome(columns: Mapping[str, Array], numbers: Mapping[str, float]) -> tuple[str, str]:
+    """Status of a motion, and the same as a sentence."""
     force = quantity_text(numbers["pull_off_force"], "N")
     more = f"; largest pull {force} after {numbers['pull_off_time']:.6g} s"
     if math.isfinite(numbers["rupture_time"]):

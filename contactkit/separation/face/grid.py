@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ...errors import DescriptionError
 from ...lubrication.reynolds.face import Face, Hole, Pocket, rasterise
-from ...scene.faces import FaceHole, SealedHole
+from ...scene.faces import FaceHole, Recess, SealedHole
 from .shape import FaceShape
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.floating[Any]]
 
-__all__ = ["FaceGrid", "gridded"]
+__all__ = ["FaceGrid", "depths", "gridded", "hole_cells", "relief_heights"]
 
 _FINE = 512  # points across the planform for its nearest place: 1/512 of tilt and crown is missed
 
@@ -46,20 +47,21 @@ def gridded(shape: FaceShape, cells: int) -> FaceGrid:
     DescriptionError
         If a hole or a recess is not resolved, or lies outside the film.
     """
-    holes = [_hole(hole) for hole in shape.holes]
+    holes = [hole_cells(hole) for hole in shape.holes]
     face = rasterise(shape.outline, cells, holes=holes)
     if shape.is_even:
         return FaceGrid(face, np.zeros(face.shape), True)
     nearest = _smooth(shape, *_points(shape))
     smooth = _smooth(shape, face.x, face.y) - float(np.nanmin(nearest))
     # Outside the film, where liquid comes from, it may not be nearer than within.
-    relief = np.maximum(smooth, 0.0) + _depths(shape, face)
+    relief = np.maximum(smooth, 0.0) + depths(shape.recesses, face)
     for one in shape.reliefs:
-        relief = relief - _heights(one, face)
+        relief = relief - relief_heights(one, face)
     return FaceGrid(face, relief, False)
 
 
-def _hole(hole: FaceHole) -> Hole | Pocket:
+def hole_cells(hole: FaceHole) -> Hole | Pocket:
+    """A hole of a face for its grid."""
     if isinstance(hole, SealedHole):
         return Pocket(shape=hole.shape, volume=hole.volume)
     return Hole(shape=hole.shape)
@@ -78,7 +80,7 @@ def _smooth(shape: FaceShape, x: Map, y: Map) -> Map:
     return found + 0.5 * shape.curvature * (x * x + y * y)
 
 
-def _heights(relief: Any, face: Face) -> Map:
+def relief_heights(relief: Any, face: Face) -> Map:
     """Heights of a map at the cells [m], by straight lines between its pixels."""
     from scipy.ndimage import map_coordinates
 
@@ -89,10 +91,10 @@ def _heights(relief: Any, face: Face) -> Map:
     return np.asarray(map_coordinates(relief.heights, places, order=1, mode="nearest"))
 
 
-def _depths(shape: FaceShape, face: Face) -> Map:
+def depths(recesses: Sequence[Recess], face: Face) -> Map:
     """Depth of the recesses [m]; where they overlap, the deepest counts."""
     depth = np.zeros(face.shape)
-    for recess in shape.recesses:
+    for recess in recesses:
         covered = np.broadcast_to(recess.shape.level(face.x, face.y) > 0.0, face.shape)
         if not (covered & face.inside).any():
             raise DescriptionError(

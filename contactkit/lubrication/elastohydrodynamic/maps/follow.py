@@ -114,6 +114,7 @@ def follow(
     drive: Drive | None = None,
     every_step: bool = False,
     until: float = math.inf,
+    observe: Callable[[MapState], None] | None = None,
 ) -> MapTrack:
     """Follow the motion from the first time to the last.
 
@@ -133,6 +134,8 @@ def follow(
         Whether states are kept after each step, and not at the times alone.
     until : float
         Rigid gap at which the motion ends before the last time [m].
+    observe : callable, optional
+        Called with each state in place of keeping all: the track has the last two.
 
     Raises
     ------
@@ -142,7 +145,7 @@ def follow(
     if drive is not None:
         wet = evolve(wet, drive=drive)
     run = _Run(wet, start, times, control or MapControl())
-    run.every_step, run.until = every_step, until
+    run.every_step, run.until, run.observe = every_step, until, observe
     run.go_through(times[1:])
     return MapTrack(run.kept, run.ruptures, run.counts)
 
@@ -162,6 +165,13 @@ class _Run(Progress[MapState, list[MapStepped]]):
         self.factors: Preconditioner | None = None
         self.before: MapState | None = None  # state a step ago, if nothing has jumped since
         self.counts = Counts()
+        self.observe: Callable[[MapState], None] | None = None
+
+    def _keep(self) -> None:
+        super()._keep()
+        if self.observe is not None:
+            self.observe(self.state)
+            del self.kept[:-2]
 
     @property
     def wet(self) -> WetMap:
@@ -249,18 +259,20 @@ class _Run(Progress[MapState, list[MapStepped]]):
         before, end, wet = self.state, solved[-1], self.wet
         weights = [1.0] if len(solved) == 1 else [1.0 - _GAMMA, _GAMMA]
 
-        def over_step(rate: Callable[[MapStepped], float]) -> float:
-            return length * sum(w * rate(one) for w, one in zip(weights, solved, strict=True))
+        def over_step(rates: list[float]) -> float:
+            return length * sum(w * rate for w, rate in zip(weights, rates, strict=True))
 
         self.before = before
+        power = [wet.power(one.fields.pressure, one.flow) for one in solved]
+        pulls = [-wet.thrust(one.fields.total) * one.fields.speed for one in solved]
         self.state = MapState(
             before.time + length,
             end.fields,
             end.sets,
             before.ruptured and bool(end.sets.void.any()),
-            before.work + over_step(lambda s: -wet.thrust(s.fields.total) * s.fields.speed),
-            before.dissipated + over_step(lambda s: wet.dissipation(s.fields, s.sets)),
-            before.inflow + over_step(lambda s: wet.inflow(s.fields, s.sets)),
+            before.work + over_step(pulls),
+            before.dissipated + over_step([one[0] for one in power]),
+            before.inflow + over_step([one[1] for one in power]),
         )
         self.counts = self.counts._replace(steps=self.counts.steps + 1)
 

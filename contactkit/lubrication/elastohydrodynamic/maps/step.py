@@ -39,6 +39,7 @@ _LINEAR = 1e-3
 _MOST_LINEAR = 120
 # Iterations beyond which new factors pay: with new ones 3 to 18 are usual.
 _STALE = 12
+_POOR = 30  # iterations beyond which factors in single precision are given up
 _REUSED = 1.5  # ratio of the lengths of two steps up to which factors are kept
 # A gap may shrink to this part of itself in an iteration, where nothing can touch.
 _LEAST_GAP = 0.1
@@ -53,10 +54,11 @@ class Work(NamedTuple):
 
 
 class MapStepped(NamedTuple):
-    """End of a stage, and what it took; `kept` are factors for the next."""
+    """End of a stage, its film, and what it took; `kept` are factors for the next."""
 
     fields: MapFields
     sets: Sets
+    flow: Flow
     work: Work
     kept: Preconditioner
 
@@ -99,7 +101,7 @@ def step(
     newton.solve()
     work = Work(len(newton.linear), tuple(newton.linear), newton.n_factorisations)
     assert newton.kept is not None
-    return MapStepped(newton.ended(), newton.sets, work, newton.kept)
+    return MapStepped(newton.ended(), newton.sets, newton.flow, work, newton.kept)
 
 
 class _Newton:
@@ -182,9 +184,16 @@ class _Newton:
             ratio = max(kept.length, self.length) / min(kept.length, self.length)
             if same and ratio < _REUSED and (not self.linear or self.linear[-1] <= _STALE):
                 return kept
+        is_poor = bool(self.linear) and self.linear[-1] > _POOR
         try:
             self.kept = preconditioner(
-                self.wet, self.local, self.flow, self.height, self.sets, self.length
+                self.wet,
+                self.local,
+                self.flow,
+                self.height,
+                self.sets,
+                self.length,
+                in_double=is_poor or (kept is not None and kept.in_double),
             )
         except ConvergenceError as error:
             raise StepFailedError(str(error)) from error
