@@ -46,8 +46,8 @@ class MapControl:
     Parameters
     ----------
     change : float
-        Part of itself by which a gap may change in a step, and part of the smallest gap by which
-        the rigid gap may.
+        Part of itself by which a gap may change in a step; the force may differ from the line
+        through start and first stage by the square of it, of its largest so far.
     order : int
         1 or 2.
     strength : float
@@ -65,8 +65,8 @@ class MapControl:
 class MapState(NamedTuple):
     """State at an instant.
 
-    `work` is that of the pull [J], `dissipated` that of the film [J], `inflow` the volume that came
-    in through the rim [m3].
+    `work` is that of the pull [J], `dissipated` that of the film and of jumps [J], `inflow` the
+    volume that came in through the rim [m3].
     """
 
     time: float
@@ -166,6 +166,9 @@ class _Run(Progress[MapState, list[MapStepped]]):
         self.before: MapState | None = None  # state a step ago, if nothing has jumped since
         self.counts = Counts()
         self.observe: Callable[[MapState], None] | None = None
+        # What begins at once, a speed or a force, makes pressures jump, or bodies without mass.
+        self.jumps = True
+        self.highest = abs(wet.thrust(start.fields.total))
 
     def _keep(self) -> None:
         super()._keep()
@@ -185,13 +188,17 @@ class _Run(Progress[MapState, list[MapStepped]]):
         except StepFailedError:
             return self._rejected(_SHRINK * length)
         change = self._change(stages[-1]) / self.control.change
+        if not self.jumps:
+            change = max(change, math.sqrt(self._bend(stages)) / self.control.change)
         if change > _TOO_MUCH:
             return self._rejected(length * max(_SHRINK, _SAFETY / change))
         if self._ruptures(stages):
             self._rupture(length)
             self.before = None
+            self.jumps = True
             return True
         self._accept(stages, length)
+        self.jumps = False
         self.length = max(cut_from, length * min(_GROW, _SAFETY / max(change, 1e-9)))
         return True
 
@@ -206,15 +213,25 @@ class _Run(Progress[MapState, list[MapStepped]]):
     def _change(self, end: MapStepped) -> float:
         """Largest change of a gap over itself."""
         before: MapFields = self.state.fields
-        after = end.fields
-        old, new = before.content, self.wet.gap(after)
+        old, new = before.content, self.wet.gap(end.fields)
         cutoff = self.wet.cutoff
         # Of cells that were in a cavity the content is no gap: there it is left out.
         full = ~(self.state.sets.void | end.sets.void)
         old, new = np.maximum(old[full], cutoff), np.maximum(new[full], cutoff)
-        opened = float(np.abs(np.log(new / old)).max(initial=0.0))
-        least = float(min(old.min(initial=math.inf), new.min(initial=math.inf)))
-        return max(opened, abs(after.rigid_gap - before.rigid_gap) / least)
+        return float(np.abs(np.log(new / old)).max(initial=0.0))
+
+    def _bend(self, stages: list[MapStepped]) -> float:
+        """How far the force leaves the line through start and first stage, over its largest.
+
+        Of one stage the square of its change.
+        """
+        forces = [self.wet.thrust(one.fields.total) for one in stages]
+        start = self.wet.thrust(self.state.fields.total)
+        highest = max(self.highest, abs(start), *map(abs, forces)) or 1.0
+        if len(forces) == 1:
+            return ((forces[0] - start) / highest) ** 2
+        ahead = start + (forces[0] - start) / _GAMMA
+        return abs(forces[-1] - ahead) / highest
 
     def _solve(self, length: float) -> list[MapStepped]:
         state, first = self.state, self.state.fields
@@ -263,18 +280,27 @@ class _Run(Progress[MapState, list[MapStepped]]):
             return length * sum(w * rate for w, rate in zip(weights, rates, strict=True))
 
         self.before = before
+        self.highest = max(self.highest, abs(wet.thrust(end.fields.total)))
         power = [wet.power(one.fields.pressure, one.flow) for one in solved]
         pulls = [-wet.thrust(one.fields.total) * one.fields.speed for one in solved]
+        work, lost = over_step(pulls), over_step([one[0] for one in power])
+        if self.jumps:
+            # What neither film nor bodies keep is lost at once: a force begins, or a film ruptures.
+            lost = work - self._stored(end.fields, end.sets) + self._stored(*before[1:3])
         self.state = MapState(
             before.time + length,
             end.fields,
             end.sets,
             before.ruptured and bool(end.sets.void.any()),
-            before.work + over_step(pulls),
-            before.dissipated + over_step([one[0] for one in power]),
+            before.work + work,
+            before.dissipated + lost,
             before.inflow + over_step([one[1] for one in power]),
         )
         self.counts = self.counts._replace(steps=self.counts.steps + 1)
+
+    def _stored(self, fields: MapFields, sets: Sets) -> float:
+        """Energy in the bodies, and of cavities against the ambient pressure [J]."""
+        return self.wet.elastic_energy(fields) + self.wet.cavity_energy(fields, sets)
 
 
 def _extrapolated(before: MapFields, after: MapFields, at: float) -> MapFields:

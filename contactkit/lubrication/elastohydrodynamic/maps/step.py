@@ -33,7 +33,11 @@ _SOLVED = 1e-8  # rows, over the gap that the step changes or a tenth of the sma
 _LEAST = 0.1  # of the smallest gap
 # Round-off: rows this small that an iteration does not halve are solved.
 _STALLED = 1e-5
-_MOST = 30  # Newton iterations; 3 to 4 are usual, 7 the most where many cells change sets
+_MOST = 60  # Newton iterations; 3 to 4 are usual, 7 the most where many cells change sets
+# Iterations from which one cell changes sets at a time, that of the lowest number: a few contacts
+# at the edge of a cavity may otherwise open and close in turn without end (Murty's rule, which ends
+# for matrices of positive principal minors).
+_TOGETHER = 8
 # Of a linear system: three iterations reach 1e-8; 1e-2 takes four, 1e-5 saves none.
 _LINEAR = 1e-3
 _MOST_LINEAR = 120
@@ -147,13 +151,16 @@ class _Newton:
     def solve(self) -> None:
         before = np.inf
         moved = abs(self.rigid_gap - self.start.rigid_gap)
+        is_solved = False
         for count in range(_MOST):
-            changed = count > 0 and self._update_sets()
+            together = count <= _TOGETHER
+            changed = count > 0 and (together or is_solved) and self._update_sets(together)
             least = max(self.wet.cutoff, float(self.held.min()))
             rows = self._rows()
             size = float(np.abs(rows).max()) / max(moved, _LEAST * least)
             is_solved = size < _SOLVED or (size < _STALLED and size > 0.5 * before)
-            if count > 0 and not changed and is_solved and self.kept is not None:
+            settled = not changed and (together or not self._violated()[1])
+            if count > 0 and settled and is_solved and self.kept is not None:
                 return
             before = np.inf if changed else size
             self._correct(rows)
@@ -248,8 +255,8 @@ class _Newton:
         slopes = self.wet.flow_slopes(self.flow, self.height, self.pressure)
         return _Product(self, slopes, inverse)
 
-    def _update_sets(self) -> bool:
-        """Change the sets where their conditions fail; whether one did."""
+    def _violated(self) -> tuple[Sets, list[int]]:
+        """Sets that the fields ask for, and the cells that are in others."""
         wet, sets = self.wet, self.sets
         void, contact = sets
         if wet.floor > -np.inf:
@@ -257,9 +264,19 @@ class _Newton:
         if wet.cutoff:
             pressed = self.total > self.pressure
             contact = np.where(sets.contact, pressed, self.gap < wet.cutoff)
-        if np.array_equal(void, sets.void) and np.array_equal(contact, sets.contact):
+        differ = (void != sets.void) | (contact != sets.contact)
+        return Sets(void, contact), np.flatnonzero(differ).tolist()
+
+    def _update_sets(self, together: bool) -> bool:
+        """Change the sets where their conditions fail, or in one cell alone; whether one did."""
+        new, cells = self._violated()
+        if not cells:
             return False
-        self.sets = Sets(void, contact)
+        if not together:
+            void, contact = self.sets.void.copy(), self.sets.contact.copy()
+            void[cells[0]], contact[cells[0]] = new.void[cells[0]], new.contact[cells[0]]
+            new = Sets(void, contact)
+        self.sets = new
         self._settle()
         return True
 

@@ -193,6 +193,13 @@ class WetMap:
         """Energy stored in the bodies [J]."""
         return 0.5 * self.thrust(now.total * self.displacement(now.total))
 
+    def cavity_energy(self, now: MapFields, sets: Sets) -> float:
+        """Work of opening the cavities against the ambient pressure [J]."""
+        if not sets.void.any():
+            return 0.0
+        held = np.where(sets.contact, self.cutoff, self.gap(now))
+        return -self.floor * self.volume(np.where(sets.void, held - now.content, 0.0))
+
     def conducting(self, gap: Array, sets: Sets) -> tuple[Array, NDArray[np.bool_]]:
         """Gap that conducts liquid [m], and where it follows that of the bodies."""
         if not self.cutoff:
