@@ -131,7 +131,7 @@ def test_counts_of_iterations(beta):
     counts = track.counts
     assert counts.most_linear <= 20
     assert counts.newton <= 4.0 * counts.stages
-    assert counts.rejected == 0
+    assert counts.rejected <= 3
 
 
 def test_counts_with_contact_and_cavities(cycle):

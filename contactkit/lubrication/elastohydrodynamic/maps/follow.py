@@ -36,6 +36,7 @@ Array = NDArray[np.float64]
 _GAMMA = 1.0 - math.sqrt(0.5)
 _GROW, _SHRINK = 2.0, 0.25  # of a step from one to the next, at most
 _TOO_MUCH = 2.0  # change over the one aimed at, with which a step is repeated
+_BEND = 0.5  # with it a rough pull takes 1.4 times the steps, and the force is right to 1e-4
 _SAFETY = 0.9  # of the length that would just meet it
 
 
@@ -47,7 +48,7 @@ class MapControl:
     ----------
     change : float
         Part of itself by which a gap may change in a step; the force may differ from the line
-        through start and first stage by the square of it, of its largest so far.
+        through start and first stage by the square of half of it, of its largest so far.
     order : int
         1 or 2.
     strength : float
@@ -189,7 +190,7 @@ class _Run(Progress[MapState, list[MapStepped]]):
             return self._rejected(_SHRINK * length)
         change = self._change(stages[-1]) / self.control.change
         if not self.jumps:
-            change = max(change, math.sqrt(self._bend(stages)) / self.control.change)
+            change = max(change, math.sqrt(self._bend(stages)) / (_BEND * self.control.change))
         if change > _TOO_MUCH:
             return self._rejected(length * max(_SHRINK, _SAFETY / change))
         if self._ruptures(stages):
