@@ -131,9 +131,7 @@ class Accuracy(Described):
         """Tolerance of the outer iterations, relative to the quantity they change [-]."""
         return min(100.0 * self.rtol, 0.1)
 
-    def foreign(
-        self, kind: Literal["contact", "separation"], *, takes_grid: bool = False
-    ) -> str:
+    def foreign(self, kind: Literal["contact", "separation"], *, takes_grid: bool = False) -> str:
         """Name of a setting that scenes of a kind do not read and that no level has; or empty.
 
         A level, such as `draft`, sets both kinds, and fits either. Some separations take `grid`.

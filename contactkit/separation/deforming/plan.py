@@ -171,8 +171,22 @@ class DeformingPlan(ScenePlan):
         return plan_deforming, (self.scene, self.accuracy)
 
 
-def plan_deforming(scene: SeparationScene, accuracy: Accuracy | None = None) -> DeformingPlan:
+def plan_deforming(
+    scene: SeparationScene,
+    accuracy: Accuracy | None = None,
+    heights: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] | None = None,
+) -> DeformingPlan:
     """Check a scene with `ElasticBodies` and prepare its film.
+
+    Parameters
+    ----------
+    scene : SeparationScene
+        The scene.
+    accuracy : Accuracy, optional
+        Settings.
+    heights : tuple of ndarray, optional
+        Cells x and y [m] and the gap of the undeformed bodies on them [m], of a result that was
+        saved: its surfaces are not read again.
 
     Raises
     ------
@@ -199,7 +213,7 @@ def plan_deforming(scene: SeparationScene, accuracy: Accuracy | None = None) -> 
             )
         film = _film(scene, liquid, bridge, wetting)
     else:
-        film = _on_map(scene, liquid, accuracy)
+        film = _on_map(scene, liquid, accuracy, heights)
     suction = 0.0 if bridge is None else bridge.laplace_pressure
     _check_layers(scene, film)
     _check_load(scene, film, modulus)
@@ -256,15 +270,20 @@ def _compliance(scene: SeparationScene) -> Callable[[NDArray[np.float64]], NDArr
     return lambda nodes: rings.matrix(nodes, *solids)
 
 
-def _on_map(scene: SeparationScene, liquid: LiquidState, accuracy: Accuracy) -> MapFilm:
+def _on_map(
+    scene: SeparationScene,
+    liquid: LiquidState,
+    accuracy: Accuracy,
+    heights: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] | None,
+) -> MapFilm:
     """The film at the start on a map, which rings do not import."""
-    from .maps.cells import cells_of
+    from .maps.cells import cells_of, restored_cells
     from .maps.film import MapFilm, check_initial_gap
 
     curvature = sum(body.surface.body_curvature for body in scene.interface.bodies)
     limit, contact = scene.effect(TensionLimit), scene.effect(SolidContact)
     film = MapFilm(
-        cells_of(scene, accuracy),
+        cells_of(scene, accuracy) if heights is None else restored_cells(scene, *heights),
         1.0 / curvature if curvature > 0.0 else math.inf,
         scene.loading.initial_gap,
         liquid.viscosity,

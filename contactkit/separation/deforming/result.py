@@ -40,8 +40,8 @@ MAPS = {"gap": "m", "film_pressure": "Pa", "solid_pressure": "Pa", "liquid": "-"
 class Section(NamedTuple):
     """Section through the film at a time [s]: arrays over the rings, of a map along x.
 
-    Radii, of a map x from the axis, and gaps [m], pressures of film and solids over ambient [Pa], part of the gap that is full
-    of liquid [-].
+    Radii [m], of a map x from the axis; gaps [m], pressures of film and solids over ambient [Pa],
+    part of the gap that is full of liquid [-].
     """
 
     time: float

@@ -221,7 +221,8 @@ class _Record:
     def sections(self) -> dict[str, Array]:
         """Sections through the axis, one for each point of the curves."""
         found = {
-            name: np.array(one) for name, one in zip(FIELDS, zip(*self.cuts, strict=True), strict=True)
+            name: np.array(one)
+            for name, one in zip(FIELDS, zip(*self.cuts, strict=True), strict=True)
         }
         return {"radius": np.tile(self.places, (len(self.rows), 1)), **found}
 

@@ -294,7 +294,7 @@ class _Product:
     def __call__(self, x: Array) -> Array:
         newton, wet = self.newton, self.newton.wet
         pressure, total, moved = newton._changes(x)
-        opened = moved + wet.displacement(total)
+        opened = moved + wet.rough_displacement(total)
         sets = newton.sets
         free = np.where(newton.follows, opened, 0.0)
         out = newton.flow.matrix @ pressure + self.slopes @ free

@@ -17,6 +17,7 @@ stores liquid up to halfway to the rim, which makes the scheme second order.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -41,6 +42,9 @@ class Deformation(Protocol):
     def displacement(self, pressure: Array) -> Array:
         """Displacement [m] by a map of pressures [Pa], of the cells that hold film."""
 
+    def rough_displacement(self, pressure: Array) -> Array:
+        """Displacement right to some 1e-6 of its largest, for corrections."""
+
     def at_wavenumber(self, wavenumber: Array) -> Array:
         """Displacement per pressure [m/Pa] of waves [1/m]."""
 
@@ -51,6 +55,8 @@ class Rigid:
     def displacement(self, pressure: Array) -> Array:
         """Zero."""
         return np.zeros_like(pressure)
+
+    rough_displacement = displacement
 
     def at_wavenumber(self, wavenumber: Array) -> Array:
         """Zero."""
@@ -172,10 +178,17 @@ class WetMap:
 
     def displacement(self, total: Array) -> Array:
         """Displacement of both bodies [m], shape (n,)."""
+        return self._by(self.deformation.displacement, total)
+
+    def rough_displacement(self, total: Array) -> Array:
+        """Displacement right to some 1e-6 of its largest [m], shape (n,)."""
+        return self._by(self.deformation.rough_displacement, total)
+
+    def _by(self, deform: Callable[[Array], Array], total: Array) -> Array:
         shape, place = self.window
         pressure = np.zeros(shape)
         pressure.ravel()[place] = total
-        return self.deformation.displacement(pressure).ravel()[place]
+        return deform(pressure).ravel()[place]
 
     def gap(self, now: MapFields) -> Array:
         """Gap of the deformed bodies [m], shape (n,)."""

@@ -7,7 +7,6 @@ the edges of a measured map are that of the film.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
@@ -26,11 +25,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ....scene.scenes import SeparationScene
-    from ....scene.surfaces import Flat
 
     Map = NDArray[np.float64]
 
-__all__ = ["Cells", "cells_of"]
+__all__ = ["Cells", "cells_of", "restored_cells"]
 
 _FINE = 8.0  # cells per shortest wave that is stated
 _FEWEST, _MOST = 64, 512  # cells across that a plan chooses by itself
@@ -97,7 +95,7 @@ class Cells:
         return self.face.inside[1:-1, 1:-1]
 
     def coarser(self) -> Cells:
-        """Cells twice as large, with the mean heights of four; a last odd row or column is left out."""
+        """Cells twice as large, with the mean heights of four; a last odd row is left out."""
         ny, nx = (n // 2 * 2 for n in self.shape.shape)
         x, y = (one[:n].reshape(-1, 2).mean(axis=1) for one, n in ((self.x, nx), (self.y, ny)))
         shape = np.asarray(block_means(self.shape[:ny, :nx]), dtype=np.float64)
@@ -119,10 +117,7 @@ def cells_of(scene: SeparationScene, accuracy: Accuracy) -> Cells:
     DescriptionError
         If two surfaces bring different grids, or `Accuracy.grid` is another.
     """
-    faces = scene.interface.faces
-    outlines = [face.outline for face in faces if face.outline is not None]
-    unlike = [one for i, one in enumerate(outlines) if one not in outlines[:i]]
-    outline = reduce(lambda a, b: a & b, unlike) if unlike else None
+    outline = _outline(scene)
     grid = _own_grid(scene, accuracy)
     if grid is None:
         grid = _laid_over(scene, outline, accuracy)
@@ -131,13 +126,32 @@ def cells_of(scene: SeparationScene, accuracy: Accuracy) -> Cells:
     else:
         _check_edges(scene)
     y, x = (one.ravel() for one in grid.from_centre())
-    holes = tuple(hole_cells(hole) for face in faces for hole in face.holes)
+    holes = _holes(scene)
     surfaces = [body.surface for body in scene.interface.bodies]
     heights = sum(realise(surface, grid) for surface in surfaces)
     flat = Cells(x, y, np.zeros(grid.shape), outline, holes)
     _check_holes(union_of(surface.void_pixels for surface in surfaces), flat)
-    shape = _of_faces(faces, scene, flat) - heights
+    shape = _of_faces(scene, flat) - heights
     return Cells(x, y, np.asarray(shape), outline, holes, _shortest(scene, grid))
+
+
+def restored_cells(scene: SeparationScene, x: Map, y: Map, shape: Map) -> Cells:
+    """Cells of a film whose heights are known, of the outline that the scene has."""
+    pixel = float(y[1] - y[0]), float(x[1] - x[0])
+    ny, nx = shape.shape
+    grid = Grid((ny, nx), pixel, False)
+    return Cells(x, y, shape, _outline(scene), _holes(scene), _shortest(scene, grid))
+
+
+def _outline(scene: SeparationScene) -> Planform | None:
+    """Where both faces are; None if neither has a rim."""
+    outlines = [face.outline for face in scene.interface.faces if face.outline is not None]
+    unlike = [one for i, one in enumerate(outlines) if one not in outlines[:i]]
+    return reduce(lambda a, b: a & b, unlike) if unlike else None
+
+
+def _holes(scene: SeparationScene) -> tuple[Any, ...]:
+    return tuple(hole_cells(hole) for face in scene.interface.faces for hole in face.holes)
 
 
 def _own_grid(scene: SeparationScene, accuracy: Accuracy) -> Grid | None:
@@ -245,11 +259,12 @@ def _check_holes(void: NDArray[np.bool_] | None, cells: Cells) -> None:
         )
 
 
-def _of_faces(faces: Sequence[Flat], scene: SeparationScene, flat: Cells) -> Map:
+def _of_faces(scene: SeparationScene, flat: Cells) -> Map:
     """Gap by tilt, crown, recesses and reliefs of flat bodies [m].
 
     As for rigid faces, the gap is the shortest distance of the smooth bodies within the film.
     """
+    faces = scene.interface.faces
     x, y = flat.x[None, :], flat.y[:, None]
     tilt = [sum(face.tilt[k] for face in faces) for k in (0, 1)]
     crowns = sum(1.0 / face.crown_radius for face in faces if face.crown_radius is not None)
