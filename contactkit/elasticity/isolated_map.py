@@ -60,7 +60,7 @@ class IsolatedMap:
             return np.zeros((ny, nx))
         source[:ny, :nx] = pressure / scale
         self.convolve_single(source, found)
-        return np.asarray(found[:ny, :nx] * (scale * self.largest))
+        return found[:ny, :nx].astype(np.float64) * (scale * self.largest)
 
     def at_wavenumber(self, wavenumber: Array) -> Array:
         """Displacement per pressure [m/Pa] of waves [1/m], of bodies without edges."""

@@ -206,7 +206,10 @@ def approximate_factors(
 
     def solve(right: Array) -> Array:
         found = np.zeros(len(right))
-        found[order] = inner * factors.solve((inner * right[order]).astype(kind))
+        given = inner * right[order]
+        size = float(np.abs(given).max())  # for the range of single precision
+        if size > 0.0:
+            found[order] = inner * size * factors.solve((given / size).astype(kind))
         return found
 
     return solve

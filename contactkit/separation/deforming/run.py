@@ -41,6 +41,7 @@ __all__ = ["not_followed", "outcome", "outcome_numbers", "phases", "pull_apart"]
 
 _POINTS = 40  # of the curve of an imposed speed, beside those that the steps add
 _SAME_GAP = 1e-9  # over the smallest: rings in contact differ by round-off
+_RAMP = 0.01  # of the time in which rigid bodies part
 _SHALLOW = 2.0  # times Hertz' approach, within which a pressed pair starts its pull
 
 
@@ -150,12 +151,31 @@ def _phases(plan: DeformingPlan) -> list[Phase]:
     pressing = Phase(lambda *_: press, [loading.rest])
     end = loading.rest + loading.time_limit
     if loading.force is not None:
-        pull = Driven(lambda _: loading.force or 0.0)
-        return [pressing, Phase(lambda *_: pull, [end], loading.final_gap)]
+        return [pressing, Phase(_reversed(plan, loading), [end], loading.final_gap)]
     speed = loading.speed or 0.0
     length = (loading.final_gap + _sunk(plan, loading.press)) / speed
     times = _times(plan, loading.rest, loading.rest + length)
     return [pressing, Phase(_at_speed(speed), times, loading.final_gap)]
+
+
+def _reversed(plan: DeformingPlan, loading: PressAndPull) -> Callable[[float, float], Driven]:
+    """Pull by a force after a load: at once, on a map within a hundredth of the time of the film.
+
+    There a contact opens cell by cell, which takes a path.
+    """
+    film, force = plan.film, loading.force or 0.0
+    if isinstance(film, SmoothGap):
+        return lambda *_: Driven(lambda _: force)
+    within = _RAMP * film.gap / characteristic_speed(plan.scene, film)
+
+    def drive(_: float, start: float) -> Driven:
+        def acting(time: float) -> float:
+            share = min(max((time - start) / within, 0.0), 1.0)
+            return share * force - (1.0 - share) * loading.press
+
+        return Driven(acting)
+
+    return drive
 
 
 def _sunk(plan: DeformingPlan, press: float) -> float:

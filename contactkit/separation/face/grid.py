@@ -10,6 +10,7 @@ import numpy as np
 from ...errors import DescriptionError
 from ...lubrication.reynolds.face import Face, Hole, Pocket, rasterise
 from ...scene.faces import FaceHole, Recess, SealedHole
+from ...scene.planforms import Planform
 from .shape import FaceShape
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.floating[Any]]
 
-__all__ = ["FaceGrid", "depths", "gridded", "hole_cells", "relief_heights"]
+__all__ = ["FaceGrid", "depths", "gridded", "hole_cells", "nearest", "relief_heights"]
 
 _FINE = 512  # points across the planform for its nearest place: 1/512 of tilt and crown is missed
 
@@ -51,8 +52,8 @@ def gridded(shape: FaceShape, cells: int) -> FaceGrid:
     face = rasterise(shape.outline, cells, holes=holes)
     if shape.is_even:
         return FaceGrid(face, np.zeros(face.shape), True)
-    nearest = _smooth(shape, *_points(shape))
-    smooth = _smooth(shape, face.x, face.y) - float(np.nanmin(nearest))
+    smooth = _smooth(shape.tilt, shape.curvature, face.x, face.y)
+    smooth = smooth - nearest(shape.outline, shape.tilt, shape.curvature)
     # Outside the film, where liquid comes from, it may not be nearer than within.
     relief = np.maximum(smooth, 0.0) + depths(shape.recesses, face)
     for one in shape.reliefs:
@@ -67,17 +68,17 @@ def hole_cells(hole: FaceHole) -> Hole | Pocket:
     return Hole(shape=hole.shape)
 
 
-def _points(shape: FaceShape) -> tuple[Map, Map]:
-    """Points in the film and on its rim; nan outside."""
-    left, right, low, high = shape.outline.bounds
+def nearest(outline: Planform, tilt: tuple[float, float], curvature: float) -> float:
+    """Smallest gap within a planform and on its rim by a tilt and a curvature [m]."""
+    left, right, low, high = outline.bounds
     x, y = np.meshgrid(np.linspace(left, right, _FINE), np.linspace(low, high, _FINE))
-    outside = shape.outline.level(x, y) < -1e-9 * max(right - left, high - low)
-    return np.where(outside, np.nan, x), np.where(outside, np.nan, y)
+    inside = outline.level(x, y) >= -1e-9 * max(right - left, high - low)
+    return float(_smooth(tilt, curvature, x, y)[inside].min())
 
 
-def _smooth(shape: FaceShape, x: Map, y: Map) -> Map:
-    found: Map = shape.tilt[0] * x + shape.tilt[1] * y
-    return found + 0.5 * shape.curvature * (x * x + y * y)
+def _smooth(tilt: tuple[float, float], curvature: float, x: Map, y: Map) -> Map:
+    found: Map = tilt[0] * x + tilt[1] * y
+    return found + 0.5 * curvature * (x * x + y * y)
 
 
 def relief_heights(relief: Any, face: Face) -> Map:

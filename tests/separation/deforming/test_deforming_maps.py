@@ -50,7 +50,7 @@ def test_the_plan_chooses_the_map_and_states_its_numbers():
         "engine: film on a map of deforming bodies",
         "24 x 24 cells of 47.1",
         "cells in the width of the pressure, 4 in the shortest wave",
-        "rms 99.6",
+        "rms 80.1",
         "beta = 1",
         "D/D_c = 0.125",
         "h_c/h = 0.1",
@@ -85,7 +85,7 @@ def test_maps_are_those_of_the_curves(pulled):
     part = pulled.section(0.2)
     row = int(np.abs(shown.y).argmin())
     assert part.gap == pytest.approx(shown.gap[row][shown.inside[row]], rel=1e-6)
-    assert np.array_equal(part.radius, shown.x[shown.inside[row]])
+    assert part.radius == pytest.approx(shown.x[shown.inside[row]], abs=1e-9 * RIM)
     assert (shown.liquid[shown.inside] < 1.0).any()
 
 
@@ -176,19 +176,18 @@ def test_stiff_bodies_are_those_of_reynolds():
 @COARSE
 def test_rest_without_end_is_the_contact_solver():
     """Pressures of the dry contact at the same load, and its conditions to 1e-8 of the rms."""
-    n, side, load = 24, 2.4e-4, 2e-4
+    n, side, load = 24, 2.4e-4, 4e-5
     x = 2.0 * math.pi * (np.arange(n) - n // 2) / n
     rough = ck.Heights(
         heights=1e-7 * (np.cos(2 * x)[:, None] * np.sin(3 * x) + np.cos(x + 1.0)[:, None]),
         pixel_size=side / n,
     )
-    upper = ck.CombinedSurface(parts=(ck.Sphere(radius=2e-2), rough))
     thin = attrs.evolve(OIL, viscosity=1e-3)
     loading = ck.PressAndPull(
-        press=load, rest=1e4, force=1e-3, initial_gap=1e-6, final_gap=4e-6, time_limit=1e-6
+        press=load, rest=1e4, force=1e-4, initial_gap=1e-6, final_gap=3e-6, time_limit=1.0
     )
     made = scene(
-        ck.SolidContact(cutoff=1e-7), loading=loading, upper=upper, lower=ck.Flat(), liquid=thin
+        ck.SolidContact(cutoff=1e-7), loading=loading, upper=rough, lower=ck.Flat(), liquid=thin
     )
     found = ran(made, None, fields_at=(1e4,))
     dry = ck.solve(

@@ -38,6 +38,10 @@ _MOST = 60  # Newton iterations; 3 to 4 are usual, 7 the most where many cells c
 # at the edge of a cavity may otherwise open and close in turn without end (Murty's rule, which ends
 # for matrices of positive principal minors).
 _TOGETHER = 8
+_DIVERGED = 1e3  # rows of an iterate whose sets are given up
+# Rows at which they then do not: where a force is reversed all that touched has the cut-off but for
+# what the rows leave.
+_SLACK = 10.0
 # Of a linear system: three iterations reach 1e-8; 1e-2 takes four, 1e-5 saves none.
 _LINEAR = 1e-3
 _MOST_LINEAR = 120
@@ -130,6 +134,7 @@ class _Newton:
         self.kept: Preconditioner | None = None
         self.linear: list[int] = []
         self.n_factorisations = 0
+        self.slack = 0.0
         self.storing = length / wet.storage
         self._settle()
 
@@ -151,20 +156,35 @@ class _Newton:
     def solve(self) -> None:
         before = np.inf
         moved = abs(self.rigid_gap - self.start.rigid_gap)
-        is_solved = False
+        is_solved, first, last_together = False, self._iterate, _TOGETHER
         for count in range(_MOST):
-            together = count <= _TOGETHER
+            together = count <= last_together
             changed = count > 0 and (together or is_solved) and self._update_sets(together)
             least = max(self.wet.cutoff, float(self.held.min()))
             rows = self._rows()
-            size = float(np.abs(rows).max()) / max(moved, _LEAST * least)
+            scale = max(moved, _LEAST * least)
+            size, self.slack = float(np.abs(rows).max()) / scale, _SLACK * _SOLVED * scale
             is_solved = size < _SOLVED or (size < _STALLED and size > 0.5 * before)
-            settled = not changed and (together or not self._violated()[1])
+            settled = not changed and (together or not self._violated(self.slack)[1])
             if count > 0 and settled and is_solved and self.kept is not None:
                 return
+            if together and count > 1 and size > _DIVERGED:
+                # Sets that changed too many cells at once: from the start again, one at a time.
+                self._iterate, last_together, before = first, count, np.inf
+                self._settle()
+                continue
             before = np.inf if changed else size
             self._correct(rows)
         raise StepFailedError(f"not converged: rows of {size:.1e}")
+
+    @property
+    def _iterate(self) -> tuple[Array, Array, float, Sets]:
+        """Unknowns and sets of now."""
+        return self.pressure, self.total, self.rigid_gap, self.sets
+
+    @_iterate.setter
+    def _iterate(self, given: tuple[Array, Array, float, Sets]) -> None:
+        self.pressure, self.total, self.rigid_gap, self.sets = given
 
     def _rows(self) -> Array:
         film = np.where(self.sets.void, 0.0, self.held - self.stored)
@@ -255,21 +275,26 @@ class _Newton:
         slopes = self.wet.flow_slopes(self.flow, self.height, self.pressure)
         return _Product(self, slopes, inverse)
 
-    def _violated(self) -> tuple[Sets, list[int]]:
-        """Sets that the fields ask for, and the cells that are in others."""
+    def _violated(self, slack: float = 0.0) -> tuple[Sets, list[int]]:
+        """Sets that the fields ask for, and the cells that are in others by more than a slack [m].
+
+        The slack of pressures is that which moves one cell by as much.
+        """
         wet, sets = self.wet, self.sets
         void, contact = sets
+        less = slack / self.local.of_cell if slack else 0.0
         if wet.floor > -np.inf:
-            void = np.where(sets.void, self.stored < self.held, self.pressure < wet.floor)
+            is_full = self.stored >= self.held + slack
+            void = np.where(sets.void, ~is_full, self.pressure < wet.floor - less)
         if wet.cutoff:
-            pressed = self.total > self.pressure
-            contact = np.where(sets.contact, pressed, self.gap < wet.cutoff)
+            is_pressed = self.total > self.pressure - less
+            contact = np.where(sets.contact, is_pressed, self.gap < wet.cutoff - slack)
         differ = (void != sets.void) | (contact != sets.contact)
         return Sets(void, contact), np.flatnonzero(differ).tolist()
 
     def _update_sets(self, together: bool) -> bool:
         """Change the sets where their conditions fail, or in one cell alone; whether one did."""
-        new, cells = self._violated()
+        new, cells = self._violated(0.0 if together else self.slack)
         if not cells:
             return False
         if not together:

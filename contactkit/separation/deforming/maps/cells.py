@@ -19,7 +19,7 @@ from ....lubrication.reynolds.face import Face, block_means, face_from_level
 from ....scene.planforms import Planform
 from ....scene.surfaces import realise, union_of
 from ....scene.window import Grid
-from ...face.grid import depths, hole_cells, relief_heights
+from ...face.grid import depths, hole_cells, nearest, relief_heights
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -266,12 +266,12 @@ def _of_faces(scene: SeparationScene, flat: Cells) -> Map:
     """
     faces = scene.interface.faces
     x, y = flat.x[None, :], flat.y[:, None]
-    tilt = [sum(face.tilt[k] for face in faces) for k in (0, 1)]
+    tilt = (sum(face.tilt[0] for face in faces), sum(face.tilt[1] for face in faces))
     crowns = sum(1.0 / face.crown_radius for face in faces if face.crown_radius is not None)
     bodies = sum(body.surface.body_curvature for body in scene.interface.bodies)
-    leaning = tilt[0] * x + tilt[1] * y + 0.5 * crowns * (x * x + y * y)
-    smooth = leaning + 0.5 * bodies * (x * x + y * y)
-    found = leaning - float(smooth[flat.inside].min())
+    found = tilt[0] * x + tilt[1] * y + 0.5 * crowns * (x * x + y * y)
+    if flat.outline is not None:
+        found = found - nearest(flat.outline, tilt, crowns + bodies)
     recesses = [recess for face in faces for recess in face.recesses]
     inner = flat.face
     found = found + depths(recesses, inner)[1:-1, 1:-1]
