@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,10 +14,18 @@ from ..separation.deforming.result import MAPS, DeformingResult, Maps
 from .axis_units import axis_label, readable
 from .style import Axes, ListedColormap, Patch, figure, legend
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-__all__ = ["animate", "energies", "field", "gaps", "loop", "regions", "sections"]
+__all__ = [
+    "animate",
+    "draw_regions",
+    "energies",
+    "field",
+    "gaps",
+    "loop",
+    "regions",
+    "regions_of",
+    "sections",
+    "telling_time",
+]
 
 _INSTANTS = 5  # of a section
 _TALLEST = 1.6  # axis of forces over the largest pull
@@ -143,10 +151,8 @@ def regions(result: DeformingResult, time: float | None = None, ax: Axes | None 
         Where to draw.
     """
     ax = ax if ax is not None else figure(size=(5.0, 4.4))[1]
-    shown = result.maps(_telling(result) if time is None else time)
-    _draw_regions(ax, shown, _regions(shown))
-    handles = [Patch(color=c, label=name) for c, name in zip(_COLOURS, _REGIONS, strict=True)]
-    ax.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
+    shown = result.maps(telling_time(result) if time is None else time)
+    _draw(ax, shown)
     ax.set_title(_instant(result, shown.time), fontsize=9)
     return ax
 
@@ -175,7 +181,7 @@ def field(
     if name not in MAPS:
         raise DescriptionError("field.name", name, f"be one of {', '.join(MAPS)}")
     ax = ax if ax is not None else figure(size=(5.0, 4.2))[1]
-    shown = result.maps(_telling(result) if time is None else time)
+    shown = result.maps(telling_time(result) if time is None else time)
     values = np.ma.masked_array(getattr(shown, name), ~shown.inside)
     factor, unit = readable(MAPS[name], values.compressed())
     around, length = _extent(shown)
@@ -228,15 +234,13 @@ def animate(result: DeformingResult, path: str | Path, *, rate: int = 8) -> Path
     force, force_name = readable("N", result["pull"])
     length, length_name = readable("m", result["gap"])
     gap, pull = result["gap"] / length, result["pull"] / force
-    handles = [Patch(color=c, label=name) for c, name in zip(_COLOURS, _REGIONS, strict=True)]
 
     def draw(index: int) -> list[Any]:
         left.clear()
         right.clear()
         shown = result.maps(times[index])
-        _draw_regions(left, shown, _regions(shown))
+        _draw(left, shown)
         left.set_title(_instant(result, shown.time), fontsize=9)
-        left.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=3)
         so_far = result["time"] <= shown.time * (1.0 + 1e-9)
         right.axhline(0.0, color="0.8", lw=0.8)
         right.plot(gap, pull, color="0.85")
@@ -252,7 +256,7 @@ def animate(result: DeformingResult, path: str | Path, *, rate: int = 8) -> Path
     return path
 
 
-def _telling(result: DeformingResult) -> float:
+def telling_time(result: DeformingResult) -> float:
     """Time of the kept map that shows most: void beside contact, else either, else the pull."""
     void, contact = result["void_volume"], result["contact_area"]
     shown = next(one for one in (void * contact, void, contact, result["pull"] + 1.0) if one.any())
@@ -260,26 +264,45 @@ def _telling(result: DeformingResult) -> float:
     return float(result.fields["time"][int(kept.argmax())])
 
 
-def _regions(shown: Maps) -> NDArray[Any]:
+def regions_of(shown: Maps) -> Any:
     """0 film, 1 contact, 2 void; masked outside."""
     found = np.where(shown.solid_pressure > 0.0, 1, 0)
     found = np.where(shown.liquid < _FULL, 2, found)
     return np.ma.masked_array(found, ~shown.inside)
 
 
-def _draw_regions(ax: Axes, shown: Maps, kinds: NDArray[Any]) -> None:
-    around, unit = _extent(shown)
+def draw_regions(ax: Axes, kinds: Any, x: Any, y: Any) -> None:
+    """Draw what `regions_of` gives over the places of its cells, with a legend below.
+
+    Parameters
+    ----------
+    ax : Axes
+        Where to draw.
+    kinds : ndarray, shape (ny, nx)
+        0 film, 1 contact, 2 void; masked where there is nothing.
+    x, y : ndarray, shape (nx,), (ny,)
+        Places in the unit of the axes.
+    """
+    dx, dy = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
     ax.imshow(
         kinds,
         origin="lower",
-        extent=around,
+        extent=(x[0] - dx, x[-1] + dx, y[0] - dy, y[-1] + dy),
         cmap=ListedColormap(_COLOURS),
         vmin=-0.5,
         vmax=2.5,
         interpolation="nearest",
     )
-    ax.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", aspect="equal")
+    handles = [Patch(color=c, label=name) for c, name in zip(_COLOURS, _REGIONS, strict=True)]
+    ax.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=3)
+    ax.set_aspect("equal")
     ax.grid(visible=False)
+
+
+def _draw(ax: Axes, shown: Maps) -> None:
+    factor, unit = readable("m", [np.ptp(shown.x), np.ptp(shown.y)])
+    draw_regions(ax, regions_of(shown), shown.x / factor, shown.y / factor)
+    ax.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
 
 
 def _extent(shown: Maps) -> tuple[tuple[float, float, float, float], str]:
