@@ -237,8 +237,7 @@ def _check_within(outline: Planform, grid: Grid) -> None:
 def _check_edges(scene: SeparationScene) -> None:
     """Refuse maps that repeat beyond their edges as the rim of a film."""
     for name in ("lower", "upper"):
-        surface: Any = getattr(scene.interface, name).surface
-        if surface.own_grids and getattr(surface, "is_periodic", None):
+        if getattr(scene.interface, name).surface.periodic_maps:
             raise PlanError(
                 f"interface.{name}.surface repeats beyond its edges (is_periodic=True): a film "
                 "without end has no rim through which liquid could flow, and its mean gap could "
@@ -271,7 +270,7 @@ def _of_faces(scene: SeparationScene, flat: Cells) -> Map:
     bodies = sum(body.surface.body_curvature for body in scene.interface.bodies)
     found = tilt[0] * x + tilt[1] * y + 0.5 * crowns * (x * x + y * y)
     if flat.outline is not None:
-        found = found - nearest(flat.outline, tilt, crowns + bodies)
+        found = found - _nearest(flat.outline, tilt, crowns + bodies)
     recesses = [recess for face in faces for recess in face.recesses]
     inner = flat.face
     found = found + depths(recesses, inner)[1:-1, 1:-1]
@@ -279,3 +278,12 @@ def _of_faces(scene: SeparationScene, flat: Cells) -> Map:
         if face.relief is not None:
             found = found - relief_heights(face.relief, inner)[1:-1, 1:-1]
     return np.asarray(found)
+
+
+def _nearest(outline: Planform, tilt: tuple[float, float], curvature: float) -> float:
+    """Smallest gap by a tilt and a curvature within an outline [m], at the apex if it lies there."""
+    if curvature > 0.0:
+        x, y = (-slope / curvature for slope in tilt)
+        if float(outline.level(x, y)) >= 0.0:
+            return -0.5 * (tilt[0] ** 2 + tilt[1] ** 2) / curvature
+    return nearest(outline, tilt, curvature)
