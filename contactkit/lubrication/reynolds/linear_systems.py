@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import importlib.util
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -157,7 +157,7 @@ def minimum_degree(matrix: Any) -> NDArray[np.int64]:
 
 def approximate_factors(
     matrix: Any, order: NDArray[np.int64], *, in_double: bool = False
-) -> Callable[[Array], Array]:
+) -> Callable[[Any], NDArray[np.float64]]:
     """Factors of a symmetric matrix for a preconditioner: a function of a right-hand side.
 
     Parameters
@@ -187,8 +187,8 @@ def approximate_factors(
 
     size = len(order)
     if not size:
-        return np.zeros_like
-    given = csr_array(matrix)
+        return lambda right: np.zeros(len(right))
+    given = matrix.tocsr()
     place = np.full(given.shape[0], -1)
     place[order] = np.arange(size)
     scale = 1.0 / np.sqrt(given.diagonal())
@@ -198,13 +198,14 @@ def approximate_factors(
     if size < given.shape[0]:
         inside = (rows >= 0) & (columns >= 0)
         rows, columns, values = rows[inside], columns[inside], values[inside]
-    kind = np.float64 if in_double else np.float32
+    kind: Any = np.float64 if in_double else np.float32
     # Symmetric: the rows of this matrix are the columns of the other.
-    ordered = csr_array((values.astype(kind), (rows, columns)), shape=(size, size))
+    entries: Any = values.astype(kind)
+    ordered = csr_array((entries, (rows, columns)), shape=(size, size))
     factors = _superlu(ordered.T, "NATURAL")
     inner = scale[order]
 
-    def solve(right: Array) -> Array:
+    def solve(right: Any) -> NDArray[np.float64]:
         found = np.zeros(len(right))
         given = inner * right[order]
         size = float(np.abs(given).max())  # for the range of single precision
@@ -215,7 +216,7 @@ def approximate_factors(
     return solve
 
 
-def _superlu(matrix: Any, ordering: str) -> Any:
+def _superlu(matrix: Any, ordering: Literal["MMD_AT_PLUS_A", "NATURAL"]) -> Any:
     from scipy.sparse.linalg import splu
 
     try:

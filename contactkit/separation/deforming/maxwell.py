@@ -33,6 +33,7 @@ import numpy as np
 from attrs import evolve
 
 from ...errors import PlanError
+from ...lubrication.elastohydrodynamic.motion import SmoothGap
 from ...scene.loading import ImposedForce
 from ...units import quantity_text
 from .effects import ElasticBodies
@@ -143,6 +144,11 @@ def refuse_fmu(scene: SeparationScene) -> None:
 
 def _cure(plan: DeformingPlan, is_input: bool) -> str:
     film, beta = plan.film, plan.numbers.beta
+    if not isinstance(film, SmoothGap):
+        return (
+            "the film on a map has a pressure in each of its cells, and its force no law of one "
+            "gap; run the scene itself, ck.simulate, or take smooth round bodies"
+        )
     stiffness = quantity_text(series_stiffness(film.radius, film.width, plan.modulus), "N/m")
     part = 1.5 if math.isinf(film.radius) else 6.0
     limit = HOLDS_TO * part * math.pi * plan.modulus * film.width * film.gap

@@ -181,9 +181,7 @@ def test_rest_without_end_is_the_contact_solver():
         pixel_size=side / n,
     )
     thin = attrs.evolve(OIL, viscosity=1e-3)
-    loading = ck.PressAndPull(
-        press=load, rest=1e4, force=1e-4, initial_gap=1e-6, final_gap=3e-6, time_limit=1.0
-    )
+    loading = ck.PressAndPull(press=load, rest=1e4, force=1e-4, initial_gap=1e-6, final_gap=1.1e-6)
     made = scene(
         ck.SolidContact(cutoff=1e-7), loading=loading, upper=rough, lower=ck.Flat(), liquid=thin
     )
@@ -249,6 +247,7 @@ def test_a_force_releases_a_mass_on_a_spring():
     assert found.status == "released"
 
 
+@pytest.mark.slow
 def test_a_study_varies_it():
     made = attrs.evolve(scene(), loading=attrs.evolve(PULL, final_gap=1.2e-6))
     with pytest.warns(ck.ValidityWarning):

@@ -152,7 +152,7 @@ class _Record:
         self.wet, self.keep = wet, keep
         self.rows: list[dict[str, float]] = []
         self.cuts: list[list[Array]] = []
-        self.maps: list[tuple[float, Array]] = []
+        self.maps: list[tuple[float, NDArray[Any]]] = []
         self.every = 1  # state whose maps are kept
         self.opened, self.slope, self.pressure = math.nan, 0.0, 0.0
         face, mesh = wet.face, wet.mesh
@@ -199,7 +199,7 @@ class _Record:
     def _is_asked(self, time: float) -> bool:
         return any(abs(time - one) <= _SAME * one for one in self.keep)
 
-    def _on_window(self, values: Sequence[Array]) -> Array:
+    def _on_window(self, values: Sequence[Array]) -> NDArray[Any]:
         (ny, nx), place = self.wet.window
         found = np.zeros((len(values), ny * nx), np.float32)
         found[:, place] = values

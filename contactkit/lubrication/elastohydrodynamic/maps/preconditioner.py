@@ -146,8 +146,8 @@ def preconditioner(
     springs = np.where(alone, weight * local.at(gap, length), 0.0)
     kept = local.order[full[local.order]]
     solve = approximate_factors(flow.matrix + diags_array(springs), kept, in_double=in_double)
-    rigid, pressed = np.zeros(len(full)), 0.0
-    motion = 0.0
+    rigid: Array = np.zeros(len(full))
+    pressed = motion = 0.0
     if isinstance(wet.drive, Driven):
         rigid = solve(weight * alone)
         if sets.contact.any():

@@ -281,7 +281,7 @@ def _of_faces(scene: SeparationScene, flat: Cells) -> Map:
 
 
 def _nearest(outline: Planform, tilt: tuple[float, float], curvature: float) -> float:
-    """Smallest gap by a tilt and a curvature within an outline [m], at the apex if it lies there."""
+    """Smallest gap by a tilt and a curvature within an outline [m], exact at an apex within."""
     if curvature > 0.0:
         x, y = (-slope / curvature for slope in tilt)
         if float(outline.level(x, y)) >= 0.0:

@@ -83,8 +83,8 @@ class MapFilm:
     def roughness(self) -> float:
         """Rms of the heights within the film, without a paraboloid [m]."""
         cells = self.cells
-        y, x = np.nonzero(cells.inside)
-        x, y, s = cells.x[x], cells.y[y], cells.shape[cells.inside]
+        rows, columns = np.nonzero(cells.inside)
+        x, y, s = cells.x[columns], cells.y[rows], cells.shape[cells.inside]
         bases = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)
         bases = bases / np.abs(bases).max(axis=0)
         left = s - bases @ np.linalg.lstsq(bases, s, rcond=None)[0]
