@@ -235,22 +235,25 @@ def animate(result: DeformingResult, path: str | Path, *, rate: int = 8) -> Path
     length, length_name = readable("m", result["gap"])
     gap, pull = result["gap"] / length, result["pull"] / force
 
-    def draw(index: int) -> list[Any]:
-        left.clear()
-        right.clear()
-        shown = result.maps(times[index])
-        _draw(left, shown)
-        left.set_title(_instant(result, shown.time), fontsize=9)
-        so_far = result["time"] <= shown.time * (1.0 + 1e-9)
-        right.axhline(0.0, color="0.8", lw=0.8)
-        right.plot(gap, pull, color="0.85")
-        right.plot(gap[so_far], pull[so_far], color="#6a4c93")
-        right.plot(gap[so_far][-1], pull[so_far][-1], "o", color="#6a4c93", ms=4)
-        right.set_xlabel(axis_label("gap of the undeformed bodies", length_name))
-        right.set_ylabel(axis_label("pull", force_name))
-        return [left, right]
+    first = result.maps(times[0])
+    image = _draw(left, first)
+    right.axhline(0.0, color="0.8", lw=0.8)
+    right.plot(gap, pull, color="0.85")
+    (line,) = right.plot([], [], color="#6a4c93")
+    (dot,) = right.plot([], [], "o", color="#6a4c93", ms=4)
+    right.set_xlabel(axis_label("gap of the undeformed bodies", length_name))
+    right.set_ylabel(axis_label("pull", force_name))
 
-    film = FuncAnimation(made, draw, frames=len(times), init_func=lambda: [left, right])
+    def draw(index: int) -> list[Any]:
+        shown = result.maps(times[index])
+        so_far = result["time"] <= shown.time * (1.0 + 1e-9)
+        image.set_data(regions_of(shown))
+        left.set_title(_instant(result, shown.time), fontsize=9)
+        line.set_data(gap[so_far], pull[so_far])
+        dot.set_data(gap[so_far][-1:], pull[so_far][-1:])
+        return [image, line, dot]
+
+    film = FuncAnimation(made, draw, frames=len(times), init_func=lambda: [image, line, dot])
     path.parent.mkdir(parents=True, exist_ok=True)
     film.save(path, writer=PillowWriter(fps=rate), dpi=72)
     return path
@@ -271,8 +274,10 @@ def regions_of(shown: Maps) -> Any:
     return np.ma.masked_array(found, ~shown.inside)
 
 
-def draw_regions(ax: Axes, kinds: Any, x: Any, y: Any) -> None:
+def draw_regions(ax: Axes, kinds: Any, x: Any, y: Any) -> Any:
     """Draw what `regions_of` gives over the places of its cells, with a legend below.
+
+    The image is returned.
 
     Parameters
     ----------
@@ -284,7 +289,7 @@ def draw_regions(ax: Axes, kinds: Any, x: Any, y: Any) -> None:
         Places in the unit of the axes.
     """
     dx, dy = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
-    ax.imshow(
+    image = ax.imshow(
         kinds,
         origin="lower",
         extent=(x[0] - dx, x[-1] + dx, y[0] - dy, y[-1] + dy),
@@ -297,12 +302,14 @@ def draw_regions(ax: Axes, kinds: Any, x: Any, y: Any) -> None:
     ax.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=3)
     ax.set_aspect("equal")
     ax.grid(visible=False)
+    return image
 
 
-def _draw(ax: Axes, shown: Maps) -> None:
+def _draw(ax: Axes, shown: Maps) -> Any:
     factor, unit = readable("m", [np.ptp(shown.x), np.ptp(shown.y)])
-    draw_regions(ax, regions_of(shown), shown.x / factor, shown.y / factor)
+    image = draw_regions(ax, regions_of(shown), shown.x / factor, shown.y / factor)
     ax.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
+    return image
 
 
 def _extent(shown: Maps) -> tuple[tuple[float, float, float, float], str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
@@ -169,12 +168,11 @@ class DeformingResult(CurveResult):
     @property
     def scales(self) -> Scales:
         """Initial gap, the force of rigid bodies at the start, and the time of the pull."""
-        film, numbers = self.plan.film, self.plan.numbers
-        force = 2.0 * math.pi * numbers.tension * film.width**2
+        film, force = self.plan.film, self.plan.rigid_force
         return scales_of(
             {
                 "m": Scale(film.gap, "h0", "initial gap"),
-                "N": Scale(force, "F0", "force of a rigid sphere at the start, 6 pi eta R^2 v/h0"),
+                "N": Scale(force, "F0", "force of rigid bodies pulled from the initial gap"),
                 "J": Scale(force * film.gap, "F0 h0", "force of rigid bodies times the gap"),
             }
         )
