@@ -36,7 +36,7 @@ R, GAP, VISCOSITY, SPEED, MODULUS, HALF = 5e-3, 1e-6, 0.1, 1e-5, 353553.39059327
 # Pull at three times [s] [N] by the first program, on 32 to 128 cells extrapolated; error 2e-4.
 TIMES, DRAFTED = (0.05, 0.1, 0.2), (5.682422970371682e-05, 9.348051092e-05, 1.3471438853780e-04)
 LOAD, REST, CUTOFF, TENSION = 3e-5, 3e3, 2e-7, 1.5e3
-RMS, FINER = 2e-7, 3  # of the cycle, so that its contact is of many spots
+RMS, FINER = 2e-7, 3  # of the cycle: waves shorter than its contact
 INSTANTS = 5
 
 
