@@ -60,7 +60,9 @@ PAGES: Mapping[str, Page] = {
         20,
         (("pictures.py",),),
     ),
-    "sensitivity": Page("injector.md, micromirror.md: tornado figures", 5, (("sensitivity.py",),)),
+    "sensitivity": Page(
+        "injector.md, micromirror.md, head-disk.md: tornado figures", 7, (("sensitivity.py",),)
+    ),
     "demands": Page("demands/: accuracy and cost, hard cases, effects", 5, (("demands",),)),
     "peers": Page(
         "demands/: what `make bench` left in out/bench",

@@ -42,6 +42,7 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
             "one-cycle",
             "delay-against-temperature",
             "delay-against-strength",
+            "delay-against-pressure",
         )
     },
     ("fuel-injector", "cost"): {"cost": "cost", "coupling": "coupling"},

@@ -1,7 +1,7 @@
 """Tornado figures of the devices: ``python docs/scripts/sensitivity.py``.
 
-Sweeps the assumptions of the fuel injector and the micromirror over the ranges of
-`models/*/assumptions.py` by their monolithic and coupled models. Writes figures to
+Sweeps the assumptions of the fuel injector, the micromirror and the head on the disk over the
+ranges of `models/*/assumptions.py`. Writes figures to
 ``docs/img/``, every answer as CSV to ``docs/img/data/``, and the tables of the pages. Some minutes.
 """
 
@@ -12,12 +12,14 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from matplotlib.ticker import MaxNLocator, PercentFormatter
 from measured_blocks import write_blocks
 from PIL import Image
 from validation_tables import grid
 
 import contactkit as ck
 from contactkit.app.scenes import open_scene
+from contactkit.models.head_disk import assumptions as head_disk
 from contactkit.models.injector import assumptions as injector
 from contactkit.models.injector.delays import closing_lag, residual_gap, sticking_time
 from contactkit.models.micromirror import assumptions as micromirror
@@ -28,6 +30,11 @@ from contactkit.scene.description import value_text
 from contactkit.studies.sensitivity import Sensitivity
 
 IMG = Path(__file__).parents[1] / "img"
+DISK = {
+    "contact_fraction": "real area of contact, fraction of the window",
+    "plastic_fraction": "plastic area, fraction of the window",
+    "meniscus_force": "force of the menisci [mN]",
+}
 SHOWN = 0.02  # of the largest finite change; the table leaves out what moves the answer less
 
 
@@ -37,9 +44,13 @@ class Case(NamedTuple):
     scene: Any
     ranges: Mapping[str, ck.Range]
     names: Mapping[str, str]
-    answer: Callable[[Any], float]
-    unit: str
+    answer: str | Callable[[Any], float]
+    unit: str | None
     missing: str
+    accuracy: ck.Accuracy | None = None
+    n: int = 5
+    heading: str = ""
+    percent: bool = False
 
 
 def cases() -> dict[str, Case]:
@@ -49,6 +60,7 @@ def cases() -> dict[str, Case]:
     mirror = open_scene("micromirror").scene
     ranges, held, names = injector.RANGES, injector.RANGES_SUSTAINED, injector.NAMES
     never = "never released"
+    humid = "relative humidity at which the springs alone fail"
     tips = (micromirror.RANGES, micromirror.NAMES)
     return {
         "injector-sticking": Case(valve, ranges, names, sticking_time, "s", never),
@@ -56,8 +68,18 @@ def cases() -> dict[str, Case]:
         "injector-closing": Case(valve, ranges, names, closing_lag, "s", "never opened"),
         "injector-standoff": Case(valve, ranges, names, residual_gap, "m", ""),
         "mirror-voltage": Case(mirror, *tips, voltage_needed, "V", "no voltage"),
-        "mirror-humidity": Case(mirror, *tips, humidity_limit, "-", "sticks dry"),
+        "mirror-humidity": Case(mirror, *tips, humidity_limit, "-", "sticks dry", heading=humid),
+        **{f"disk-{answer.replace('_', '-')}": _disk(answer) for answer in DISK},
     }
+
+
+def _disk(answer: str) -> Case:
+    """A number of the contact of head and disk; the ends of each range alone, 2 s each."""
+    device = open_scene("head-disk")
+    lean = head_disk.without_stresses(device.scene)
+    ranges, names = head_disk.RANGES, head_disk.NAMES
+    heading, percent = DISK[answer], answer.endswith("fraction")
+    return Case(lean, ranges, names, answer, None, "", device.accuracy, 2, heading, percent)
 
 
 def table(found: Sensitivity, names: Mapping[str, str]) -> str:
@@ -91,10 +113,15 @@ def main() -> int:
     known = cases()
     for name in sys.argv[1:] or known:
         one = known[name]
-        found = ck.sensitivity(one.scene, one.ranges, one.answer, n=5, unit=one.unit)
+        found = ck.sensitivity(
+            one.scene, one.ranges, one.answer, one.accuracy, n=one.n, unit=one.unit
+        )
         ax = found.plot.tornado(names=one.names, missing=one.missing, most=11)
-        if one.unit == "-":
-            ax.set_xlabel("relative humidity at which the springs alone fail")
+        if one.heading:
+            ax.set_xlabel(one.heading)
+        if one.percent:
+            ax.xaxis.set_major_locator(MaxNLocator(5))
+            ax.xaxis.set_major_formatter(PercentFormatter(1.0))
         path = save(ax.figure, IMG / f"tornado-{name}")
         with Image.open(path) as figure:
             figure.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)

@@ -21,6 +21,7 @@ __all__ = ["NAMES", "RANGES", "RANGES_SUSTAINED", "sustaining"]
 
 _GAPS = "loading.initial_gap, loading.rest_gap, loading.final_gap, valve.stop.gap"
 _TENSIONS = "effects.tension-limit.strength, effects.tension-limit.cavity_pressure"
+_AROUND = "effects.tension-limit.ambient_pressure, effects.tension-limit.strength"
 _FACES = "interface.lower.surface.radius, interface.upper.surface.radius"
 
 RANGES: Mapping[str, Range] = MappingProxyType(
@@ -33,8 +34,10 @@ RANGES: Mapping[str, Range] = MappingProxyType(
         "effects.tension-limit.strength": Range(
             "1.02 bar", "30 bar", "aerated oil, to clean degassed oil for milliseconds"
         ),
-        "effects.tension-limit.ambient_pressure": Range(
-            "1.01325 bar", "5 bar", "a drain to the crankcase, to the feed pressure of the gallery"
+        _AROUND: Range(
+            ("1.01325 bar", "10 bar"),
+            ("20 bar", "28.98675 bar"),
+            "a drain to the crankcase, to oil under pressure; it cavitates at -9 bar absolute",
         ),
         "temperature": Range("-20 degC", "80 degC", "cold start, to warm engine"),
         _GAPS: Range(
@@ -80,7 +83,7 @@ NAMES: Mapping[str, str] = MappingProxyType(
     {
         "effects.tension-limit.cavity_pressure": "pressure in the cavity",
         "effects.tension-limit.strength": "tensile strength of the oil",
-        "effects.tension-limit.ambient_pressure": "pressure around the face",
+        _AROUND: "pressure around the face",
         _TENSIONS: "tension it sustains",
         "temperature": "temperature of the oil",
         _GAPS: "gap when closed",

@@ -42,6 +42,7 @@ def delay(
     cavitates: bool = True,
     strength: float | None = None,
     cavity_pressure: float | None = None,
+    ambient_pressure: float | None = None,
     rtol: float = 1e-6,
 ) -> float:
     """Delay of the first release [s], nan if it is not released within the pulse.
@@ -49,7 +50,11 @@ def delay(
     For an oil as in `InjectorScene.separation`.
     """
     film = scene.separation(
-        temperature, cavitates=cavitates, strength=strength, cavity_pressure=cavity_pressure
+        temperature,
+        cavitates=cavitates,
+        strength=strength,
+        cavity_pressure=cavity_pressure,
+        ambient_pressure=ambient_pressure,
     )
     return _release(scene, plan(film), rtol)
 

@@ -55,6 +55,8 @@ class Study:
     cavity_pressures : tuple of float
         Pressures in the cavity once the oil has cavitated [Pa], absolute, that the figures compare,
         beside an oil that goes on to sustain its strength. Below zero: a tension.
+    ambient_pressures : tuple of float
+        Pressures of the oil around the face [Pa], absolute, over which a figure shows the delay.
     communication_step : float
         Communication step of the co-simulation [s].
     """
@@ -67,6 +69,9 @@ class Study:
     )
     cavity_pressures: tuple[float, ...] = field(
         default=(), converter=tuple, validator=_all_finite, metadata=si("Pa")
+    )
+    ambient_pressures: tuple[float, ...] = field(
+        default=(), converter=tuple, validator=_all_positive, metadata=si("Pa")
     )
     communication_step: float = field(validator=positive, metadata=si("s"))
 
@@ -97,6 +102,7 @@ class InjectorScene(Device):
         cavitates: bool = True,
         strength: float | None = None,
         cavity_pressure: float | None = None,
+        ambient_pressure: float | None = None,
     ) -> SeparationScene:
         """Film of the injector at a temperature [K].
 
@@ -111,15 +117,20 @@ class InjectorScene(Device):
         cavity_pressure : float, optional
             Another pressure in the cavity [Pa], absolute. Never below that at which the whole oil
             cavitates, so that -inf is an oil that goes on to sustain its strength.
+        ambient_pressure : float, optional
+            Another pressure of the oil around the face [Pa], absolute. The oil cavitates at the
+            same absolute pressure as in the file, unless a strength is given.
         """
 
         def evolved(limit: TensionLimit) -> TensionLimit:
-            bears = limit.tension if strength is None else strength
-            if limit.cavity != "mass-conserving":
-                return evolve(limit, strength=bears)
-            held = limit.cavity_pressure if cavity_pressure is None else cavity_pressure
-            held = None if held is None else max(held, limit.ambient_pressure - bears)
-            return evolve(limit, strength=bears, cavity_pressure=held)
+            around = limit.ambient_pressure if ambient_pressure is None else ambient_pressure
+            same = limit.tension + (around - limit.ambient_pressure)
+            bears = same if strength is None else strength
+            found = {"ambient_pressure": around, "strength": bears}
+            if limit.cavity == "mass-conserving":
+                held = limit.cavity_pressure if cavity_pressure is None else cavity_pressure
+                found["cavity_pressure"] = None if held is None else max(held, around - bears)
+            return evolve(limit, **found)
 
         effects = tuple(
             evolved(e) if isinstance(e, TensionLimit) else e

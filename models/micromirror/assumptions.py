@@ -22,7 +22,9 @@ RANGES: Mapping[str, Range] = MappingProxyType(
             "50 nm", "300 nm", "a sharp edge of a film 0.1 um thick, to a worn one"
         ),
         _ANGLES: Range(
-            ("10 deg", "10 deg"), ("80 deg", "80 deg"), "clean oxide, to oxide handled in air"
+            ("10 deg", "10 deg"),
+            ("110 deg", "110 deg"),
+            "clean oxide, to the fluorinated monolayer of the source",
         ),
         _GAPS: Range(
             ("0.2 nm", "0.2 nm"), ("1 nm", "1 nm"), "touching oxides, to grains of the film"

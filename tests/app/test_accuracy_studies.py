@@ -71,6 +71,7 @@ def test_the_compliance_of_the_hard_disk_is_that_of_the_reference_table():
     assert kept == {key: disk[key] for key in kept}
 
 
+@pytest.mark.slow
 def test_errors_fall_with_the_grid():
     """Against Hertz, by the solver that is judged."""
     cylinder = [p for p in contact_studies.lines() if p.method.startswith("cylinder")]

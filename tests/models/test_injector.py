@@ -19,7 +19,7 @@ from contactkit.files.scenes import structure
 from contactkit.fmu.slaves.stiction_mass import mass_values
 from contactkit.models.injector.delays import delay, dry_delay
 from contactkit.models.injector.report.cosimulation import cosimulate_cases
-from contactkit.models.injector.report.cycles import cycles, run_error
+from contactkit.models.injector.report.cycles import cycles, held_pressure, run_error
 from contactkit.models.injector.report.run import report
 from contactkit.models.injector.scene import Study
 from contactkit.separation.effects.base import LimitKind
@@ -119,6 +119,8 @@ def test_the_report_writes_signals_figures_and_fmus(short, runs, tmp_path):
     assert all(path.stat().st_size > 1000 for path in files)
     assert "coupling" in made.text
     assert "an oil of up to 25.7 bar cavitates" in made.text
+    assert "from 12.9 bar on the cavity holds the whole pull" in made.text
+    assert "delay-against-pressure.png" in names
     assert "from cold to warm: never, never" in made.text
     assert made.scalars["release_delay_80degC_sustained"][1] == "s"
     with (tmp_path / "signals_80degC.csv").open() as file:
@@ -156,6 +158,28 @@ def test_the_scene_becomes_the_parameters_of_the_fmu(device):
     assert values["R"] == pytest.approx(3.175e-3)
     assert (values["dp_inception"], values["dp_hold"], values["dp_cav"]) == (1e6, 101325.0, 0.0)
     assert values["V"] == values["h_break"] == 0.0
+
+
+def test_from_the_pressure_at_which_the_cavity_holds_the_pull_the_answer_is_another(device):
+    """Area times the drop in the cavity against the pull: statics, whatever the oil."""
+    scene = device.scene
+    face, vapour = math.pi * 3.175e-3**2, 0.0
+    holds = held_pressure(scene, scene.tension_limit)
+    assert (holds - vapour) * face == pytest.approx(40.7, rel=0.01)
+    low, high = (
+        [delay(scene, t, ambient_pressure=p * holds) for t in (253.15, 293.15, 353.15)]
+        for p in (0.9, 1.2)
+    )
+    assert low[0] > low[1] > low[2] > 1.5 * dry_delay(scene)  # worse in the cold
+    assert math.isnan(high[0])
+    assert math.isnan(high[1])
+    assert high[2] > 4.0 * dry_delay(scene)
+
+
+def test_the_oil_keeps_its_absolute_tension_at_another_pressure_around_the_face(device):
+    limit = device.scene.separation(293.15, ambient_pressure=13e5).effect(ck.TensionLimit)
+    assert limit.ambient_pressure - limit.tension == pytest.approx(101325.0 - 1e6)
+    assert limit.cavity_drop == 13e5
 
 
 def test_an_oil_may_be_another_one(device):

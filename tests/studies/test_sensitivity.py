@@ -9,6 +9,7 @@ from attrs import evolve
 
 import contactkit as ck
 from contactkit.app.scenes import open_scene
+from contactkit.models.head_disk import assumptions as head_disk
 from contactkit.models.injector.assumptions import NAMES, RANGES, RANGES_SUSTAINED, sustaining
 from contactkit.models.injector.delays import closing_lag, residual_gap, sticking_time
 from contactkit.models.micromirror.assumptions import NAMES as MIRROR_NAMES
@@ -155,6 +156,17 @@ def test_ranges_of_the_injector_hold_its_values(injector):
             if isinstance(one.base, float):
                 assert one.values[0] <= one.base * (1 + 1e-9)
                 assert one.base <= one.values[-1] * (1 + 1e-9)
+
+
+def test_ranges_of_the_disk_hold_its_values():
+    device = open_scene("head-disk")
+    lean = head_disk.without_stresses(device.scene)
+    assert set(head_disk.RANGES) == set(head_disk.NAMES)
+    got = ck.sensitivity(lean, head_disk.RANGES, lambda one: one.loading.pressure, unit="Pa")
+    for one in got.influences:
+        if isinstance(one.base, float):
+            assert one.values[0] <= one.base <= one.values[-1]
+    assert lean.effects != device.scene.effects
 
 
 def test_the_oil_decides_how_long_the_spool_sticks(injector):

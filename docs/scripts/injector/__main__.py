@@ -21,6 +21,7 @@ TABLES = {
     "delays": coupling.delays,
     "oils": delays.oils_table,
     "strengths": delays.strength_table,
+    "pressures": delays.pressure_table,
     "cavities": delays.cavity_table,
     "closing": delays.closing_table,
     "refilling": delays.refilling_table,

@@ -74,6 +74,24 @@ def cavity_table() -> str:
     return grid(["cavity", *_degrees(injector)], rows)
 
 
+def pressure_table() -> str:
+    """Release delay over the pressure around the face, of an oil that cavitates at -9 bar."""
+    injector = open_scene("fuel-injector").scene
+    rows = []
+    for around in (1.01325, 2.0, 3.0, 5.0, 10.0, 12.0, 13.0, 14.0, 15.0, 17.0, 20.0):
+        cells = [
+            _milliseconds(
+                delay(injector, t, ambient_pressure=around * 1e5, cavity_pressure=pressure)
+            )
+            for pressure in (0.0, -math.inf)
+            for t in injector.study.temperatures
+        ]
+        rows.append([f"{around:g} bar", *cells])
+    degrees = [f"{t - celsius(0.0):.0f} degC" for t in injector.study.temperatures]
+    head = [f"{oil}, {one} [ms]" for oil in ("vapour", "sustains it") for one in degrees]
+    return grid(["pressure around the face", *head], rows)
+
+
 def closing_table() -> str:
     """Distance from the end cap at which the spool is at the end of each cycle."""
     injector = open_scene("fuel-injector").scene

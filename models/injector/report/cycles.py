@@ -11,6 +11,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 from ....numerics.roots import bracketed_root
 from ....separation.effects.base import LimitKind
+from ....separation.effects.viscous import TensionLimit
 from ....separation.plan import plan
 from ..monolithic import simulate
 from ..scene import InjectorScene
@@ -20,6 +21,7 @@ from .cosimulation import InjectorRun
 __all__ = [
     "Cycle",
     "cycles",
+    "held_pressure",
     "largest_pull",
     "run_error",
 ]
@@ -79,6 +81,15 @@ def largest_pull(scene: InjectorScene) -> float:
     coldest = plan(scene.separation(min(scene.study.temperatures), cavitates=False))
     pull = simulate(coldest, scene.valve, scene.first_pulse_end, rtol=1e-6)["pull"]
     return float(pull.max())
+
+
+def held_pressure(scene: InjectorScene, limit: TensionLimit) -> float:
+    """Pressure around the face [Pa], absolute, from which on a cavity holds the largest pull.
+
+    A cavity over nearly all of the face holds area times its drop below the pressure around.
+    """
+    in_cavity = limit.ambient_pressure - limit.cavity_drop
+    return largest_pull(scene) / (math.pi * scene.interface.rim_radius**2) + in_cavity
 
 
 def run_error(run: InjectorRun, found: Sequence[Cycle]) -> float:

@@ -15,13 +15,14 @@ from ....units import bar, celsius
 from ..delays import delay
 from ..scene import InjectorScene
 from .cosimulation import InjectorRun
-from .cycles import cycles, largest_pull
+from .cycles import cycles, held_pressure, largest_pull
 
-__all__ = ["delays_over_strength", "delays_over_temperature"]
+__all__ = ["delays_over_pressure", "delays_over_strength", "delays_over_temperature"]
 
 # Of Okabe and Ito: told apart by those who see few colours.
 _SUSTAINED, _NEVER = "#d55e00", "#000000"
 _PRESSURES = ("#0072b2", "#56b4e9", "#cc79a7", "#009e73")
+_COLD_TO_WARM = ("#0072b2", "#009e73", "#d55e00", "#cc79a7", "#56b4e9")
 _RTOL = 1e-5  # of delays that are drawn
 
 
@@ -147,6 +148,40 @@ def delays_over_strength(scene: InjectorScene, limit: TensionLimit, out: Path, d
     plot.shared_legend(made, axes[0][0])
     plot.letters(axes.flat)
     return plot.save(made, out / "delay-against-strength")
+
+
+def delays_over_pressure(scene: InjectorScene, limit: TensionLimit, out: Path, dry: float) -> Path:
+    """Release delay over the pressure around the face, for each temperature of the study."""
+    made, ax = plot.figure(size=(9.0, 5.0))
+    around = sorted(scene.study.ambient_pressures)
+    for temperature, color in zip(scene.study.temperatures, _COLD_TO_WARM, strict=False):
+        delays = [delay(scene, temperature, ambient_pressure=p, rtol=_RTOL) for p in around]
+        label = f"oil at {temperature - celsius(0.0):+.0f} degC"
+        curve = _Curve(label, {}, {"color": color, "marker": "."})
+        _draw(ax, scene, curve, [p / bar for p in around], delays)
+    _finish(ax, scene, dry)
+    held = held_pressure(scene, limit) / bar
+    ax.axvline(held, color="0.5", lw=0.8, ls="-.")
+    ax.annotate(
+        "the cavity holds\nthe whole pull",
+        (held, 0.7),
+        xytext=(-4, 0),
+        textcoords="offset points",
+        ha="right",
+        fontsize=9,
+        xycoords=("data", "axes fraction"),
+        color="0.4",
+    )
+    ax.axvline(limit.ambient_pressure / bar, color="0.5", lw=0.8, ls=":")
+    ax.set_xlabel("pressure of the oil around the face, absolute [bar]")
+    lowest = (limit.ambient_pressure - limit.tension) / bar
+    plot.title(
+        ax,
+        f"release delay over the pressure around the face (dotted: the scene's)\noil that "
+        f"cavitates at {lowest:.3g} bar, cavity at {(limit.cavity_pressure or 0.0) / bar:.3g} bar",
+    )
+    plot.legend(ax, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return plot.save(made, out / "delay-against-pressure")
 
 
 def _strengths(scene: InjectorScene, drop: float) -> list[float]:

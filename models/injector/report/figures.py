@@ -14,7 +14,7 @@ from ..scene import InjectorScene
 from ..valve import energising_times
 from .cosimulation import InjectorRun
 from .cycles import cycles
-from .delay_figures import delays_over_strength, delays_over_temperature
+from .delay_figures import delays_over_pressure, delays_over_strength, delays_over_temperature
 
 __all__ = ["draw"]
 
@@ -30,8 +30,11 @@ def draw(
     files += [_zoom(scene, runs, out), _cycle(scene, runs, out)]
     files.append(delays_over_temperature(scene, runs, out, dry))
     limit = scene.tension_limit
-    if scene.study.strengths and limit is not None and limit.cavity == "mass-conserving":
-        files.append(delays_over_strength(scene, limit, out, dry))
+    if limit is not None and limit.cavity == "mass-conserving":
+        if scene.study.ambient_pressures:
+            files.append(delays_over_pressure(scene, limit, out, dry))
+        if scene.study.strengths:
+            files.append(delays_over_strength(scene, limit, out, dry))
     return tuple(files)
 
 

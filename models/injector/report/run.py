@@ -18,7 +18,7 @@ from ....units import bar, celsius
 from ..delays import delay, dry_delay
 from ..scene import InjectorScene
 from .cosimulation import InjectorRun, cosimulate_cases
-from .cycles import Cycle, cycles, largest_pull, run_error
+from .cycles import Cycle, cycles, held_pressure, largest_pull, run_error
 from .deformation import deformation_numbers
 from .end_stop import end_stop_numbers
 
@@ -169,6 +169,9 @@ def _what_decides(scene: InjectorScene, runs: Sequence[InjectorRun]) -> list[str
     if limit is None or limit.cavity != "mass-conserving" or math.isinf(limit.tension):
         return []
     area, pull = math.pi * scene.interface.rim_radius**2, largest_pull(scene)
+    holds = held_pressure(scene, limit)
+    pressed = [delay(scene, t, ambient_pressure=holds) for t in scene.study.temperatures]
+    above = ", ".join("never" if math.isnan(d) else f"{d * 1e3:.3f} ms" for d in pressed)
     never = [delay(scene, t, cavitates=False) for t in scene.study.temperatures]
     each = ", ".join("never" if math.isnan(d) else f"{d * 1e3:.3f} ms" for d in never)
     first: dict[bool, list[float]] = {}
@@ -187,7 +190,10 @@ def _what_decides(scene: InjectorScene, runs: Sequence[InjectorRun]) -> list[str
         f"{2.0 * pull / area / bar:.1f} bar cavitates",
         f"an oil that never cavitates is released after, from cold to warm: {each}",
         f"the pressure in the cavity decides how long it holds then, by {'; by '.join(held)}",
-        "neither is known for this oil: both are assumptions of the scene",
+        f"the pressure around the face, here {limit.ambient_pressure / bar:.3g} bar, decides "
+        f"before both: from {holds / bar:.1f} bar on the cavity holds the whole pull, and the "
+        f"spool is released after, from cold to warm: {above}",
+        "none of the three is known for this valve: they are assumptions of the scene",
     ]
 
 

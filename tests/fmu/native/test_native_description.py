@@ -95,7 +95,7 @@ def test_c_finds_each_number_by_its_name(model, contents, tmp_path):
         f"#define c (*at)\n{text}    free(data.numbers), free(data.cells);\n    return 0;\n}}\n"
     )
     files = [folder / f"{name}.c" for name in ("members", "data", "description")]
-    program = compile_c(files, tmp_path / "members", f"-I{folder}")
+    program = compile_c(files, tmp_path / "members", f"-I{folder}", "-O0")
     (tmp_path / "film.bin").write_bytes(data_file("g", LAYOUT, contents[model].numbers()))
     said = subprocess.run(
         [str(program), str(tmp_path / "film.bin")], check=True, capture_output=True, text=True
@@ -146,7 +146,7 @@ def opened(shelf):
     def make(folder):
         write_sources(folder)
         files = [path for path in folder.glob("*.c") if not path.name.startswith(("fmi2", "fmi3"))]
-        compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}")
+        compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}", "-O0")
 
     probe = shelf.folder("kernel probe", make) / "probe"
 
