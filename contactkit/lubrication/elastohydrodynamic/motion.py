@@ -323,7 +323,7 @@ def _run(
 
 
 def end_time(states: Sequence[Any], until: float) -> float:
-    """When a phase ended: in the last step of its states, on the cubic of its gaps and speeds."""
+    """Time at which a phase ended: in the last step of its states, on the cubic through them."""
     end = states[-1]
     if end.fields.rigid_gap < until or len(states) < 2:
         return float(end.time)

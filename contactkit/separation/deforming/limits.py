@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Limit", "rigid_limit", "static_limit"]
 
-_POINTS = 16  # of a curve on a map, where each is solved; 200 in closed form
-_CLOSED = 200
+_POINTS = 16  # of a curve on a map, where each is solved
+_CLOSED = 200  # points of a closed form
 _NEAREST = 1.05  # gap over that at which rigid bodies touch
 
 

@@ -38,7 +38,7 @@ def ran(made, grid, rtol=1e-2, **more):
 
 @pytest.fixture(scope="module")
 def pulled():
-    """Torn by a tension of a cavity that the pull exceeds, on 20 x 20 cells."""
+    """A film that ruptures, on 20 x 20 cells."""
     limit = ck.TensionLimit(strength=3e3, cavity_pressure=101325.0 - 3e3)
     with pytest.warns(ck.ValidityWarning):
         return ran(scene(limit), 20, rtol=2e-2, fields_at=(0.05, 0.2))

@@ -34,9 +34,9 @@ _LEAST = 0.1  # of the smallest gap
 # Round-off: rows this small that an iteration does not halve are solved.
 _STALLED = 1e-5
 _MOST = 60  # Newton iterations; 3 to 4 are usual, 7 the most where many cells change sets
-# Iterations from which one cell changes sets at a time, that of the lowest number: a few contacts
-# at the edge of a cavity may otherwise open and close in turn without end (Murty's rule, which ends
-# for matrices of positive principal minors).
+# Iterations that change no fewer cells than before, after which one cell changes sets at a time,
+# that of the lowest number: a few contacts at the edge of a cavity may otherwise open and close in turn
+# without end (Murty's rule, which ends for matrices of positive principal minors).
 _TOGETHER = 8
 _DIVERGED = 1e3  # rows of an iterate whose sets are given up
 # Rows at which they then do not: where a force is reversed all that touched has the cut-off but for
@@ -156,10 +156,14 @@ class _Newton:
     def solve(self) -> None:
         before = np.inf
         moved = abs(self.rigid_gap - self.start.rigid_gap)
-        is_solved, first, last_together = False, self._iterate, _TOGETHER
+        is_solved, first, last_together, fewest = False, self._iterate, _TOGETHER, np.inf
         for count in range(_MOST):
             together = count <= last_together
-            changed = count > 0 and (together or is_solved) and self._update_sets(together)
+            changed = 0
+            if count > 0 and (together or is_solved):
+                changed = self._update_sets(together)
+            if together and 0 < changed < fewest:
+                fewest, last_together = changed, count + _TOGETHER
             least = max(self.wet.cutoff, float(self.held.min()))
             rows = self._rows()
             scale = max(moved, _LEAST * least)
@@ -168,7 +172,7 @@ class _Newton:
             settled = not changed and (together or not self._violated(self.slack)[1])
             if count > 0 and settled and is_solved and self.kept is not None:
                 return
-            if together and count > 1 and size > _DIVERGED:
+            if self.moves and together and count > 1 and size > _DIVERGED:
                 # Sets that changed too many cells at once: from the start again, one at a time.
                 self._iterate, last_together, before = first, count, np.inf
                 self._settle()
@@ -292,18 +296,18 @@ class _Newton:
         differ = (void != sets.void) | (contact != sets.contact)
         return Sets(void, contact), np.flatnonzero(differ).tolist()
 
-    def _update_sets(self, together: bool) -> bool:
-        """Change the sets where their conditions fail, or in one cell alone; whether one did."""
+    def _update_sets(self, together: bool) -> int:
+        """Change the sets where their conditions fail, or in one cell alone; how many did."""
         new, cells = self._violated(0.0 if together else self.slack)
         if not cells:
-            return False
+            return 0
         if not together:
             void, contact = self.sets.void.copy(), self.sets.contact.copy()
             void[cells[0]], contact[cells[0]] = new.void[cells[0]], new.contact[cells[0]]
             new = Sets(void, contact)
         self.sets = new
         self._settle()
-        return True
+        return len(cells)
 
     def ended(self) -> MapFields:
         speed = (self.rigid_gap - self.start.rigid_gap) / self.length

@@ -33,7 +33,7 @@ __all__ = ["Cells", "cells_of", "restored_cells"]
 _FINE = 8.0  # cells per shortest wave that is stated
 _FEWEST, _MOST = 64, 512  # cells across that a plan chooses by itself
 _ERROR = 1e-3  # `Accuracy.film_rtol` at which a smooth face has 128 cells across
-_SMOOTH = 128
+_SMOOTH = 128  # cells across such a face
 _OVER = 1e-9  # of a length: round-off
 
 

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 __all__ = ["MapFilm", "check_initial_gap"]
 
 # Of a run, per cell: factors of the film (200 on 128 x 128 cells, 260 on 256 x 256), directions of
-# GMRES, padded transforms, maps that are kept. Measured: 0.33 GB more on 256 x 256 cells.
-_BYTES = 5000.0
+# GMRES, padded transforms, maps that are kept. Measured: 0.18 GB more on 256 x 256 cells.
+_BYTES = 3000.0
 _SQUARE = 1e-6  # sides of a cell that differ by less
 _STEPS = 3.0  # over those in which the rigid gap opens alone, of pulls of rough spheres
 
@@ -114,7 +114,7 @@ class MapFilm:
         (ny, nx), (dy, dx) = cells.shape.shape, cells.pixel_size
         size = quantity_text(dx, "m")
         size += f" x {quantity_text(dy, 'm')}" if abs(dy / dx - 1.0) > _SQUARE else ""
-        steps = _STEPS * math.log(final_gap / self.gap) / change
+        steps = _STEPS * math.log(max(final_gap / self.gap, 2.0)) / change
         yield (
             f"grid: {nx} x {ny} cells of {size}; some {steps:.0f} steps and "
             f"{self.memory / 1e9:.2g} GB, and a second run on half the cells for the error"

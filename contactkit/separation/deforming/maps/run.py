@@ -17,8 +17,8 @@ from ....lubrication.elastohydrodynamic.step import StepFailedError
 from ....scene.loading import PressAndPull
 from ....validity import warn
 from ...curve_result import Work
+from ..outcome import not_followed, outcome, outcome_numbers
 from ..result import DeformingResult
-from ..run import not_followed, outcome, outcome_numbers
 from ..validity import map_ranges
 from .cells import Cells
 
@@ -158,7 +158,7 @@ def _liquid_error(motion: MapMotion) -> float:
 
 
 def _trapped(film: MapFilm, motion: MapMotion, pulled: float) -> float:
-    """Liquid beyond the throat on the widest way out to the rim [m3]: what pressing left.
+    """Liquid beyond the throat on the widest path to the rim [m3]: what pressing left.
 
     Of a dimple that of `run`, and of a rough film also that of valleys.
     """
