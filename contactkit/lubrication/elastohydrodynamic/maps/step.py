@@ -35,8 +35,8 @@ _LEAST = 0.1  # of the smallest gap
 _STALLED = 1e-5
 _MOST = 60  # Newton iterations; 3 to 4 are usual, 7 the most where many cells change sets
 # Iterations that change no fewer cells than before, after which one cell changes sets at a time,
-# that of the lowest number: a few contacts at the edge of a cavity may otherwise open and close in turn
-# without end (Murty's rule, which ends for matrices of positive principal minors).
+# that of the lowest number: a few contacts at the edge of a cavity may otherwise open and close in
+# turn without end (Murty's rule, which ends for matrices of positive principal minors).
 _TOGETHER = 8
 _DIVERGED = 1e3  # rows of an iterate whose sets are given up
 # Rows at which they then do not: where a force is reversed all that touched has the cut-off but for
