@@ -10,6 +10,7 @@ from refusals import each_refused
 
 import contactkit as ck
 from contactkit.errors import DescriptionError, InfeasibleError, PlanError
+from contactkit.separation.deforming.maxwell import refuse_fmu
 
 pytestmark = pytest.mark.errors
 
@@ -174,6 +175,14 @@ test_maps = each_refused(
                 )
             ),
             r"fields_at = \(0\.1,\) is read by plans with ElasticBodies alone: leave it out",
+        ),
+        (
+            partial(lambda: ck.modulus_curve(scene(**rough(), lower=HALF), [1.0])),
+            r"modulus_curve takes smooth round bodies, .* give a Flat without outline",
+        ),
+        (
+            partial(lambda: refuse_fmu(scene(**rough(), lower=HALF))),
+            r"no FMU holds ElasticBodies yet: the film on a map has a pressure in each of its",
         ),
         (
             partial(
