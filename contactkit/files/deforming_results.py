@@ -77,6 +77,8 @@ def unpack_deforming(header: Mapping[str, Any], arrays: Arrays, name: str) -> De
         made = _plan_on_map(scene, accuracy, maps, cells)
     else:
         made = plan_deforming(scene, accuracy)
+        if not isinstance(made.film, SmoothGap):
+            raise ValueError("its film is on a map, and its maps are missing")
     return DeformingResult(
         made,
         header["status"],
