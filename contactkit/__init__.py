@@ -113,6 +113,7 @@ if TYPE_CHECKING:
         Disc,
         Ellipse,
         Image,
+        ImageFile,
         Intersection,
         Planform,
         Polygon,
@@ -130,7 +131,7 @@ if TYPE_CHECKING:
         SelfAffineRoughness,
     )
     from .scene.scenes import ContactScene, SeparationScene, SlidingScene
-    from .scene.surfaces import Flat, Paraboloid, Sphere, Wave
+    from .scene.surfaces import FineRoughness, Flat, Paraboloid, Sphere, Wave
     from .scene.window import Window
     from .separation.deforming.effects import ElasticBodies, SolidContact
     from .separation.deforming.plan import DeformingPlan
@@ -186,6 +187,7 @@ _HOMES = {
     "ExponentialAttraction": "contact.effects.attraction_laws",
     "FilmMeniscus": "contact.effects.film",
     "FilmStatus": "separation.effects.base",
+    "FineRoughness": "scene.surfaces",
     "Flat": "scene.surfaces",
     "FrictionCoupling": "contact.effects.friction",
     "FrictionTraction": "contact.effects.friction",
@@ -199,6 +201,7 @@ _HOMES = {
     "HardnessMap": "contact.effects.hardness_rules",
     "Heights": "scene.rough_surfaces",
     "Image": "scene.planforms",
+    "ImageFile": "scene.planforms",
     "ImposedForce": "scene.loading",
     "ImposedSpeed": "scene.loading",
     "ImposedTime": "scene.loading",
@@ -336,6 +339,7 @@ __all__ = [
     "ExponentialAttraction",
     "FilmMeniscus",
     "FilmStatus",
+    "FineRoughness",
     "Flat",
     "FrictionCoupling",
     "FrictionTraction",
@@ -345,6 +349,7 @@ __all__ = [
     "HardnessMap",
     "Heights",
     "Image",
+    "ImageFile",
     "ImposedForce",
     "ImposedSpeed",
     "ImposedTime",

@@ -42,7 +42,7 @@ def pack_deforming(result: DeformingResult) -> tuple[dict[str, Any], Arrays]:
     header = {
         "kind": "deforming",
         "scene": unstructure(result.plan.scene, arrays),
-        "accuracy": attrs.asdict(result.plan.accuracy),
+        "accuracy": result.plan.accuracy.saved(),
         "status": result.status,
         "message": result.message,
         "numbers": dict(result.numbers),
@@ -58,7 +58,7 @@ def unpack_deforming(header: Mapping[str, Any], arrays: Arrays, name: str) -> De
     Heights are those of the file: one that the scene names may have moved since.
     """
     scene = structure(with_arrays(header["scene"], arrays), SeparationScene, name)
-    accuracy = Accuracy(**header["accuracy"])
+    accuracy = Accuracy.of_file(header["accuracy"])
     groups = {prefix: _group(arrays, prefix) for prefix in (_SECTION, _MAP, _CELLS)}
     sections, maps, cells = groups.values()
     columns = {key: values for key, values in arrays.items() if key in COLUMNS}

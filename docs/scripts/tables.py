@@ -147,7 +147,7 @@ def default(field: attrs.Attribute[Any]) -> str:
 def keys(kind: type) -> str:
     """Keys of a table in a file: the fields of a class."""
     texts, rows = descriptions(kind), []
-    for field in attrs.fields(kind):
+    for field in (one for one in attrs.fields(kind) if one.name[0] != "_"):
         unit = field.metadata.get("unit", "")
         text = re.sub(r" \[[^]]{1,10}\]", "", texts[field.name])
         rows.append((f"`{field.alias}`", unit, default(field), text))

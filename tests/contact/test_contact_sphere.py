@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,11 +10,12 @@ from scipy.special import ellipe, ellipk
 from selection import quick
 
 import contactkit as ck
+from contactkit.benchmarks.references.tables import reference
 from contactkit.reference import hamilton, hertz
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
-CASES = json.loads((Path(__file__).parents[1] / "data" / "contact.json").read_text("utf-8"))
+CASES = reference("contact")
 SPHERES = {case["name"]: case for case in CASES["spheres"]}
 
 E, NU, RADIUS, A0 = 1e9, 0.3, 1e-3, 1e-6  # substrate, sphere, and Hertz's contact on it

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import functools
-import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +10,7 @@ from numpy.polynomial import polynomial
 from scipy.interpolate import RectBivariateSpline
 from selection import quick
 
+from contactkit.benchmarks.references.tables import reference
 from contactkit.elasticity.layer_stack import Layers
 from contactkit.elasticity.stress.maxima import (
     DepthSearch,
@@ -31,7 +30,7 @@ from contactkit.elasticity.stress.planes import Plane, planes
 from contactkit.elasticity.stress.tractions import Tractions, traction_coupling
 from contactkit.errors import DescriptionError
 
-DATA = json.loads((Path(__file__).parents[1] / "data" / "layered.json").read_text())
+DATA = reference("layered")
 MEASURES = {"sqrt_j2": sqrt_j2, "von_mises": von_mises, "tresca": tresca}
 HALF = Layers([1.0], [0.3])
 STACK = Layers([4.0, 0.5, 1.0], [0.3, 0.4, 0.2], [0.3, 0.5])

@@ -73,6 +73,11 @@ def _of_maps(scene: SeparationScene) -> Iterator[str]:
             "a SealedHole in a face that deforms is not known; give a Vent, or leave ElasticBodies "
             "out"
         )
+    if any(face.roughness is not None for face in interface.faces):
+        yield (
+            "Flat.roughness acts by flow factors, which films between deforming bodies do not "
+            "have; leave it out, or give heights: Flat(relief=...), CombinedSurface"
+        )
     if meniscus is None or not (meniscus.has_pressure or meniscus.volume is not None):
         return
     for name in ("lower", "upper"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,6 +12,8 @@ from ...errors import DescriptionError
 from ...lubrication.reynolds.face import Face, Hole, Pocket, rasterise
 from ...scene.faces import FaceHole, Recess, SealedHole
 from ...scene.planforms import Planform
+from ...scene.surfaces import Surface, whole_heights
+from ...scene.window import Grid
 from .shape import FaceShape
 
 if TYPE_CHECKING:
@@ -20,7 +23,10 @@ if TYPE_CHECKING:
 
 __all__ = ["FaceGrid", "depths", "gridded", "hole_cells", "nearest", "relief_heights"]
 
-_FINE = 512  # points across the planform for its nearest place: 1/512 of tilt and crown is missed
+# Points across the planform, as many as the finest film has cells: for its nearest place, of which
+# 1/512 of tilt and crown is missed, and for the heights of a relief that is no map.
+_FINE = 512
+_CURE = "a face is resolved by 512 points; roughness that is finer has flow factors: FineRoughness"
 
 
 class FaceGrid(NamedTuple):
@@ -57,7 +63,7 @@ def gridded(shape: FaceShape, cells: int) -> FaceGrid:
     # Outside the film, where liquid comes from, it may not be nearer than within.
     relief = np.maximum(smooth, 0.0) + depths(shape.recesses, face)
     for one in shape.reliefs:
-        relief = relief - relief_heights(one, face)
+        relief = relief - relief_heights(one, shape.outline, face)
     return FaceGrid(face, relief, False)
 
 
@@ -81,15 +87,30 @@ def _smooth(tilt: tuple[float, float], curvature: float, x: Map, y: Map) -> Map:
     return found + 0.5 * curvature * (x * x + y * y)
 
 
-def relief_heights(relief: Any, face: Face) -> Map:
-    """Heights of a map at the cells [m], by straight lines between its pixels."""
+def relief_heights(relief: Surface, outline: Planform, face: Face) -> Map:
+    """Heights of a relief at the cells [m], by straight lines between its pixels."""
     from scipy.ndimage import map_coordinates
 
-    size = relief.pixel_size
-    dy, dx = size if isinstance(size, tuple) else (size, size)
-    ny, nx = relief.heights.shape
+    grid = _relief_grid(relief, outline)
+    heights = whole_heights(relief, grid, _CURE)
+    (dy, dx), (ny, nx) = grid.pixel_size, grid.shape
     places = np.broadcast_arrays(face.y / dy + 0.5 * (ny - 1), face.x / dx + 0.5 * (nx - 1))
-    return np.asarray(map_coordinates(relief.heights, places, order=1, mode="nearest"))
+    return np.asarray(map_coordinates(heights, places, order=1, mode="nearest"))
+
+
+def _relief_grid(relief: Surface, outline: Planform) -> Grid:
+    """Grid of a height map; of a recipe one over the face, the same for all grids of the film."""
+    if own := relief.own_grids:
+        if len(own) > 1:
+            expected = "have height maps of one grid, (shape, pixel size [m])"
+            raise DescriptionError("Flat.relief", sorted(own), expected)
+        ((pixels, pixel_size),) = own
+        return Grid(pixels, pixel_size, False)
+    left, right, low, high = outline.bounds
+    width, height = 2.0 * max(abs(left), abs(right)), 2.0 * max(abs(low), abs(high))
+    size = max(width, height) / _FINE
+    ny, nx = math.ceil(height / size), math.ceil(width / size)
+    return Grid((ny, nx), (height / ny, width / nx), False)
 
 
 def depths(recesses: Sequence[Recess], face: Face) -> Map:

@@ -159,6 +159,20 @@ test_maps = each_refused(
             r"a SealedHole in a face that deforms is not known; give a Vent",
         ),
         (
+            planned(
+                lower=ck.Flat(
+                    radius=5e-4,
+                    roughness=ck.FineRoughness(
+                        surface=ck.GaussianRoughness(
+                            rms=1e-8, correlation_length=1e-6, cutoff=2e-7
+                        ),
+                        width=1e-5,
+                    ),
+                )
+            ),
+            r"Flat\.roughness acts by flow factors, .*; leave it out, or give heights",
+        ),
+        (
             planned(**rough(), lower=HALF, loading=attrs.evolve(PRESS, rest=1e6)),
             r"rest = 1e\+06 s drains the film to less than 2 nm at the highest peaks.*SolidContact",
         ),

@@ -200,10 +200,10 @@ def _cells_across(scene: SeparationScene, longest: float, accuracy: Accuracy) ->
     if math.isfinite(waves):
         wanted = max(wanted, _FINE * longest / waves)
     for flat in scene.interface.faces:
-        relief: Any = flat.relief
-        if relief is not None:
-            size = relief.pixel_size
-            wanted = max(wanted, longest / (min(size) if isinstance(size, tuple) else size))
+        if flat.relief is not None:
+            finest = [min(size) for _, size in flat.relief.own_grids]
+            finest += [one.length / _FINE for one in flat.relief.shortest_waves(probe)]
+            wanted = max(wanted, *(longest / size for size in finest))
     return min(max(2 * math.ceil(0.5 * wanted), _FEWEST), _MOST)
 
 
@@ -275,8 +275,8 @@ def _of_faces(scene: SeparationScene, flat: Cells) -> Map:
     inner = flat.face
     found = found + depths(recesses, inner)[1:-1, 1:-1]
     for face in faces:
-        if face.relief is not None:
-            found = found - relief_heights(face.relief, inner)[1:-1, 1:-1]
+        if face.relief is not None and flat.outline is not None:
+            found = found - relief_heights(face.relief, flat.outline, inner)[1:-1, 1:-1]
     return np.asarray(found)
 
 
