@@ -46,7 +46,11 @@ PAGES: Mapping[str, Page] = {
     ),
     "bridges": Page("bridges.md: errors of closures", 0.5, _measured("bridges")),
     "films": Page("img/: pictures of films.md", 0.5, (("film_pictures.py",),)),
-    "deforming": Page("img/deforming-pull.png", 0.3, (("deforming",),)),
+    "deforming": Page(
+        "img/deforming-pull.png; fmu-native.md: exactness of FMUs of deforming bodies",
+        1,
+        (("deforming",), ("deforming/fmus.py", "--write")),
+    ),
     "adhesion": Page("adhesion.md: levels of a curve, and its picture", 5, _measured("adhesion")),
     "claims": Page("errata.md: statements of chapter 2", 3, _measured("claims")),
     "pictures": Page(

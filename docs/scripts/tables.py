@@ -44,6 +44,7 @@ from contactkit.contact.effects.base import (
 from contactkit.fmu.framework.ports import Port
 from contactkit.fmu.framework.slave import PortSlave
 from contactkit.fmu.slaves.contact_stop import ContactStop
+from contactkit.fmu.slaves.deforming import DeformingForce, DeformingMass
 from contactkit.fmu.slaves.stiction_force import StictionForce
 from contactkit.fmu.slaves.stiction_mass import StictionMass
 from contactkit.fmu.slaves.tip_contact import TipContact
@@ -83,6 +84,8 @@ FMUS: Mapping[str, type[PortSlave]] = {
     "valve-drive": ValveDrive,
     "contact-stop": ContactStop,
     "tip-contact": TipContact,
+    "deforming-mass": DeformingMass,
+    "deforming-force": DeformingForce,
 }
 DOCS = Path(__file__).parents[1]
 MARK = re.compile(r"(<!-- table: ([\w -]+) -->\n)(.*?)(<!-- end of table -->)", re.DOTALL)

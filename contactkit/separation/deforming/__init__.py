@@ -10,6 +10,6 @@ run       The motion, and its result.
 maps      Bodies with heights: films on a grid.
 limits    Rigid bodies with a film, and bodies at rest.
 validity  Ranges of validity along a run.
-maxwell   Rigid film in series with a spring, its first correction, and why no FMU has more.
+maxwell   Rigid film in series with a spring, its first correction.
 result    Result: curves, sections, numbers.
 """
