@@ -72,6 +72,7 @@ if TYPE_CHECKING:
     from .contact.effects.plastic_history import PlasticHistory
     from .contact.effects.plasticity import HardnessLimit
     from .contact.effects.stress import SubsurfaceStress
+    from .contact.functionals import Functional, Slopes
     from .contact.plan import ContactPlan
     from .contact.press import press
     from .contact.result import ContactResult
@@ -89,11 +90,19 @@ if TYPE_CHECKING:
     from .files.curves import SavedCurve, read_curve
     from .files.results import load_result, save_result
     from .files.scenes import load_liquid, load_material, load_scene, save_scene
+    from .fitting.compare import compare_fits
+    from .fitting.data import MeasuredBound, MeasuredCurve
+    from .fitting.fit import fit
+    from .fitting.fit_file import read_fit
+    from .fitting.parameters import Prior
+    from .fitting.readers import read_force_curve, read_measured_curve
+    from .fitting.result import Fit
     from .kinds import EFFECTS, KINDS, register
     from .liquids.liquid import Liquid
     from .planning import plan
     from .scene.asperity_population import AsperityPopulation
     from .scene.faces import Recess, SealedHole, Vent
+    from .scene.gradient import Gradient
     from .scene.interface import Body, Interface
     from .scene.loading import (
         Approach,
@@ -155,6 +164,7 @@ if TYPE_CHECKING:
     from .shortcuts.squeeze import squeeze_time
     from .studies.estimate import plan_study
     from .studies.sensitivity import Range, sensitivity
+    from .studies.sobol import sobol_indices
     from .studies.stream import stream_study
     from .studies.study import study
     from .studies.study_file import StudyFile
@@ -188,10 +198,13 @@ _HOMES = {
     "FilmMeniscus": "contact.effects.film",
     "FilmStatus": "separation.effects.base",
     "FineRoughness": "scene.surfaces",
+    "Fit": "fitting.result",
     "Flat": "scene.surfaces",
     "FrictionCoupling": "contact.effects.friction",
     "FrictionTraction": "contact.effects.friction",
+    "Functional": "contact.functionals",
     "GaussianRoughness": "scene.rough_surfaces",
+    "Gradient": "scene.gradient",
     "HalfSpace": "contact.effects.elasticity",
     "HardnessLimit": "contact.effects.plasticity",
     "ConstantHardness": "contact.effects.hardness_rules",
@@ -219,6 +232,8 @@ _HOMES = {
     "Liquid": "liquids.liquid",
     "Material": "scene.materials",
     "Measured": "scene.rough_surfaces",
+    "MeasuredBound": "fitting.data",
+    "MeasuredCurve": "fitting.data",
     "Meniscus": "scene.meniscus",
     "MeniscusForce": "separation.effects.meniscus",
     "MotionState": "separation.motion.state",
@@ -232,6 +247,7 @@ _HOMES = {
     "PlasticHistory": "contact.effects.plastic_history",
     "Polygon": "scene.planforms",
     "Pressing": "scene.loading",
+    "Prior": "fitting.parameters",
     "Pull": "separation.motion.state",
     "Range": "studies.sensitivity",
     "Recess": "scene.faces",
@@ -254,6 +270,7 @@ _HOMES = {
     "SlidingPlan": "separation.sliding.plan",
     "SlidingResult": "separation.sliding.result",
     "SlidingScene": "scene.scenes",
+    "Slopes": "contact.functionals",
     "Sphere": "scene.surfaces",
     "SpringSlider": "analyses.stick_slip",
     "Stack": "scene.materials",
@@ -273,12 +290,14 @@ _HOMES = {
     "advance": "separation.motion.advance",
     "bridge_force": "shortcuts.menisci",
     "capillary_force": "shortcuts.menisci",
+    "compare_fits": "fitting.compare",
     "contact_area": "shortcuts.contact_area",
     "critical_meniscus": "analyses.division",
     "discretisation_error": "contact.discretisation",
     "divide_meniscus": "analyses.division",
     "divide_sliding": "separation.sliding.plan",
     "equilateral_triangle": "scene.planforms",
+    "fit": "fitting.fit",
     "humidity_curve": "analyses.humidity_curve",
     "load_curve": "analyses.load_curve",
     "load_displacement": "analyses.load_displacement.solve",
@@ -296,11 +315,15 @@ _HOMES = {
     "release_over": "analyses.deforming.release",
     "stiction_table": "analyses.deforming.stiction",
     "read_curve": "files.curves",
+    "read_fit": "fitting.fit_file",
+    "read_force_curve": "fitting.readers",
+    "read_measured_curve": "fitting.readers",
     "register": "kinds",
     "save_result": "files.results",
     "save_scene": "files.scenes",
     "sensitivity": "studies.sensitivity",
     "simulate": "separation.simulate",
+    "sobol_indices": "studies.sobol",
     "solve": "contact.solve",
     "squeeze_time": "shortcuts.squeeze",
     "stick_slip": "analyses.stick_slip",
@@ -340,10 +363,13 @@ __all__ = [
     "FilmMeniscus",
     "FilmStatus",
     "FineRoughness",
+    "Fit",
     "Flat",
     "FrictionCoupling",
     "FrictionTraction",
+    "Functional",
     "GaussianRoughness",
+    "Gradient",
     "HalfSpace",
     "HardnessLimit",
     "HardnessMap",
@@ -368,6 +394,8 @@ __all__ = [
     "Material",
     "MaterialHardness",
     "Measured",
+    "MeasuredBound",
+    "MeasuredCurve",
     "Meniscus",
     "MeniscusForce",
     "MotionState",
@@ -382,6 +410,7 @@ __all__ = [
     "Polygon",
     "PressAndPull",
     "Pressing",
+    "Prior",
     "Pull",
     "Range",
     "Recess",
@@ -400,6 +429,7 @@ __all__ = [
     "SlidingPlan",
     "SlidingResult",
     "SlidingScene",
+    "Slopes",
     "SolidContact",
     "Sphere",
     "SpringSlider",
@@ -420,12 +450,14 @@ __all__ = [
     "advance",
     "bridge_force",
     "capillary_force",
+    "compare_fits",
     "contact_area",
     "critical_meniscus",
     "discretisation_error",
     "divide_meniscus",
     "divide_sliding",
     "equilateral_triangle",
+    "fit",
     "humidity_curve",
     "load_curve",
     "load_displacement",
@@ -441,12 +473,16 @@ __all__ = [
     "pull_off_curve",
     "pull_off_over_speed",
     "read_curve",
+    "read_fit",
+    "read_force_curve",
+    "read_measured_curve",
     "register",
     "release_over",
     "save_result",
     "save_scene",
     "sensitivity",
     "simulate",
+    "sobol_indices",
     "solve",
     "squeeze_time",
     "stick_slip",

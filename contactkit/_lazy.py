@@ -10,13 +10,16 @@ from typing import Any
 __all__ = ["ABOVE", "above", "lazy_names", "named"]
 
 ABOVE = {
+    "gradient_of": "studies.gradients.of_result",
     "figures_of": "plot.accessors.base",
     "save_curve": "files.curves",
+    "save_fit": "fitting.fit_file",
     "save_result": "files.results",
 }
 """Functions of rooms above that a result offers as a property or a method, with their modules.
 
-`result.plot` and `result.save` are for users; a room that computes knows neither figures nor files.
+`result.plot`, `result.save` and `result.gradient` are for users; a room that computes knows neither
+figures nor files nor the paths of parameters.
 """
 
 

@@ -1,4 +1,4 @@
-"""The command line: ``contactkit run | study | plan | cost | report | fmu`` and helpers."""
+"""The command line: ``contactkit run | study | fit | plan | cost | report | fmu`` and helpers."""
 
 from __future__ import annotations
 

@@ -11,8 +11,10 @@ __all__ = ["missing_extra", "require"]
 _EXTRAS = {
     "PIL": "plot",
     "SurfaceTopography": "maps",
+    "afmformats": "afm",
     "distributed": "dask",
     "ducc0": "fast",
+    "emcee": "posterior",
     "fmpy": "fmu",
     "matplotlib": "plot",
     "mpl_toolkits": "plot",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from attrs import field, frozen
 
@@ -17,6 +17,9 @@ from ..models.library import bundled_scene, device_kind
 from ..planning import plan
 from ..scene.scenes import Scene
 from .study import StudyOptions, study_lines
+
+if TYPE_CHECKING:
+    from .fit import FitOptions
 
 __all__ = ["Opened", "OpenedDevice", "OpenedScene", "open_scene"]
 
@@ -38,6 +41,9 @@ class Opened(Protocol):
 
     def study(self, out: Path | None, progress: Progress, options: StudyOptions) -> Report:
         """Run the study of the file, and write its columns and figure to a folder."""
+
+    def fit(self, out: Path | None, progress: Progress, options: FitOptions) -> Report:
+        """Fit parameters to a measured curve, and write the fit and its figures to a folder."""
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """Show what accuracy costs in time."""
@@ -110,6 +116,12 @@ class OpenedScene:
 
         return run_study(self.scene, self.accuracy, self.parameters, out, progress, options)
 
+    def fit(self, out: Path | None, progress: Progress, options: FitOptions) -> Report:
+        """See `Opened.fit`."""
+        from .fit import fit_scene
+
+        return fit_scene(self.scene, self.accuracy, out, progress, options)
+
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """See `Opened.cost`."""
         from ..benchmarks.scene_cost import scene_cost
@@ -148,6 +160,12 @@ class OpenedDevice:
             f"{self.name} is a device: contactkit run includes what its file varies; contactkit "
             "study takes a contact, a separation or a sliding"
         )
+
+    def fit(self, out: Path | None, progress: Progress, options: FitOptions) -> Report:
+        """See `Opened.fit`."""
+        from .fit import fit_scene
+
+        return fit_scene(self.scene, Accuracy(), out, progress, options)
 
     def cost(self, out: Path | None, progress: Progress, error: float) -> Report:
         """See `Opened.cost`."""

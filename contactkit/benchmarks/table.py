@@ -321,7 +321,7 @@ _CONTACT = (
         digits="Maugis parameter 1",
         holds=1e-2,
         note="With a Maugis parameter of 5 the range of the attraction is resolved from 128 x 128 "
-        "pixels on; the trapping number, which a result prints, tells.",
+        "pixels on; the trapping number, which a result prints, states it.",
     ),
     AccuracyStudy(
         name="history",

@@ -6,6 +6,7 @@ terminal        Printing of results, remarks, progress and times, as much as is 
 work            Runs of a scene: its output folder, its progress, its report.
 run             ``contactkit run``.
 study           ``contactkit study``.
+fit             ``contactkit fit``.
 plan            ``contactkit plan`` and ``contactkit check``, which run nothing.
 cost            ``contactkit cost``.
 report          ``contactkit report``.

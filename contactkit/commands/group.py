@@ -6,6 +6,7 @@ import click
 
 from .completion import completion
 from .cost import cost
+from .fit import fit
 from .fmu import fmu
 from .gallery import gallery
 from .lists import list_names, new
@@ -39,7 +40,7 @@ def contactkit(context: click.Context, version: bool) -> int:
 
 
 for _command in (
-    *(list_names, new, check, plan, run, study, cost, report),
+    *(list_names, new, check, plan, run, study, fit, cost, report),
     *(gallery, fmu, completion),
 ):
     contactkit.add_command(_command)

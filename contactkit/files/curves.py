@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     Arrays = dict[str, NDArray[Any]]
 
-__all__ = ["SavedCurve", "read_curve", "save_curve"]
+__all__ = ["SavedCurve", "read_curve", "read_validity", "save_curve"]
 
 
 @frozen(eq=False, kw_only=True)
@@ -175,7 +175,7 @@ def _unpacked(header: Any, columns: Arrays) -> SavedCurve:
         units=FrozenDict(units),
         numbers=FrozenDict(scalars),
         sources=tuple(_texts({"references": header["references"]})["references"].splitlines()),
-        validity=tuple(_validity(one) for one in header["validity"]),
+        validity=tuple(read_validity(one) for one in header["validity"]),
         parts=_frozen(dict(header["parts"])),
         shown=FrozenDict(shown),
     )
@@ -194,7 +194,8 @@ def _number(value: Any) -> float:
     return value  # type: ignore[return-value]  # int and float are registered as Real
 
 
-def _validity(fields: Mapping[str, Any]) -> ValidityNumber:
+def read_validity(fields: Mapping[str, Any]) -> ValidityNumber:
+    """Read a validity number of a file; another type is refused by an error of Python."""
     _texts({key: fields[key] for key in ("name", "detail", "source")})
     for key in ("value", "low", "high"):
         if key != "value" or fields[key] is not None:  # one that could not be evaluated

@@ -41,6 +41,7 @@ __all__ = [
     "read_tables",
     "save_scene",
     "scene_kind",
+    "scene_text",
     "structure",
     "telling_lines",
     "unstructure",
@@ -195,6 +196,26 @@ def save_scene(scene: SeparationScene | SlidingScene | ContactScene, path: str |
     with write_whole(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
     return Path(path)
+
+
+def scene_text(scene: SeparationScene | SlidingScene | ContactScene, name: str) -> str:
+    """Return a scene as the text of a TOML file, with absolute paths of height maps.
+
+    Parameters
+    ----------
+    scene : SeparationScene, SlidingScene or ContactScene
+        The scene.
+    name : str
+        What messages call the text.
+
+    Raises
+    ------
+    DescriptionError
+        If a file could not hold the scene whole.
+    """
+    import tomli_w
+
+    return tomli_w.dumps(_whole_tables(scene, name))
 
 
 def _whole_tables(scene: Any, name: str) -> dict[str, Any]:

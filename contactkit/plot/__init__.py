@@ -18,7 +18,9 @@ deforming   Separations of deforming bodies: loop, gaps, sections, energies.
 film        Films on faces: pressure, liquid fraction; animations.
 curves      Any curves of a result along one axis.
 study       Studies: numbers over a parameter, bands over seeds.
+fit         Fits: data and model, residuals, information, correlations.
 tornado     Tornado figures: which assumption moves a quantity.
+gradient    Slopes over heights and parameters; Sobol' indices.
 cost        Error over seconds.
 gallery     Figures of the gallery: bands over seeds, colour bars, files for print.
 """

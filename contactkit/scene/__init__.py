@@ -18,6 +18,7 @@ answer               Base class of results, curves and studies: numbers, sources
 result               Base class of all results.
 scales               Reference scales of a result.
 curve                Curves: columns over one axis, each with its unit, and the numbers that follow.
+gradient             A number of a result and its slopes.
 figures              Figures of a result as methods, which the room that draws fills in.
 tabular              Results as tables: quantities with axes, units and labels.
 description          A scene in words, with units that read well.

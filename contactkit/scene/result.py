@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import abc
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -20,6 +20,8 @@ from .scales import Scaled, Scales
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from .gradient import Gradient
 
 __all__ = ["Result"]
 
@@ -180,6 +182,58 @@ class Result(Answer):
         known |= {n: f"result.{n}" for n in dir(type(self)) if not n.startswith("_")}
         close = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
         return f"did you mean {known[close[0]]}?" if close else ""
+
+    def gradient(self, of: Any, to: str | Sequence[str]) -> Gradient:
+        """Return the slopes of a number of the result over parameters of its scene.
+
+        Of a contact by one more solve with the same operator, of a motion by the sensitivities of
+        its steps; nothing is run again for each parameter. Pixels in contact stay what they are:
+        the slopes hold until one comes into contact or leaves it.
+
+        Parameters
+        ----------
+        of : str or Functional
+            The number: of a contact one of `contact.functionals.FUNCTIONALS`, such as ``load``,
+            ``approach`` or ``mean_gap``, or a `Functional` of one's own; of a separation
+            ``release_time``, ``release_speed``, ``break_time``, ``peak_force``, ``final_gap`` or an
+            impulse.
+        to : str or sequence of str
+            Dotted paths of numbers of the scene, as in `study`: ``loading.force``,
+            ``interface.lower.solid.young_modulus``; and ``heights`` of a contact, the slope over
+            the height of each pixel, a map.
+
+        Returns
+        -------
+        Gradient
+            ``gradient["loading.force"]`` is a slope; notes where it is one-sided.
+
+        Raises
+        ------
+        NotSimulatedError
+            If the result has no gradient: of a contact with loading history, coupled friction,
+            adhesion or a hardness that follows the displacement; of a motion that rests on
+            asperities or whose cavity is remembered.
+        DescriptionError
+            If there is no such number or parameter, or it has no gradient.
+
+        Examples
+        --------
+        >>> import contactkit as ck
+        >>> oil = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
+        >>> face = ck.Flat(radius=1e-3)
+        >>> scene = ck.SeparationScene(
+        ...     interface=ck.Interface(lower=face, upper=face, meniscus=ck.Meniscus(liquid=oil)),
+        ...     loading=ck.ImposedForce(force=1.0, mass=1e-3, initial_gap=5e-6, final_gap=2e-5),
+        ...     effects=(ck.ViscousForce(),),
+        ... )
+        >>> gradient = ck.simulate(ck.plan(scene)).gradient(
+        ...     "release_time", "interface.meniscus.liquid.viscosity"
+        ... )
+        >>> round(gradient.relative("interface.meniscus.liquid.viscosity"), 2)
+        1.0
+        """
+        found: Gradient = above("gradient_of")(self, of, to)
+        return found
 
     def save(self, path: str | Path) -> Path:
         """Write the result to an npz file without pickle; `load_result` reads it."""

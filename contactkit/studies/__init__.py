@@ -2,6 +2,8 @@
 
 study        `study`: a scene solved over a grid of parameter values.
 sensitivity  `sensitivity`: what each assumption does to a quantity over its plausible range.
+sobol        `sobol_indices`: which assumptions the variance of a quantity comes from.
+gradients    Gradients of numbers of a result, behind ``result.gradient``.
 columns      Base class of studies: columns over the product of the parameters, figures, file.
 table        The result of a study: points, bands, table.
 stream       `stream_study`: a study of many points, written to a file as they are solved.

@@ -25,11 +25,20 @@ from .columns import as_text
 from .paths import axes, changed, joined, value_at
 from .study import Study, check_effects, study
 
-__all__ = ["Influence", "Range", "Sensitivity", "sensitivity"]
+__all__ = [
+    "WIDE",
+    "Answers",
+    "Influence",
+    "Range",
+    "Sensitivity",
+    "answers",
+    "ranges_of",
+    "sensitivity",
+]
 
 # Ratio of the ends of a range from which the values between are spaced by ratios: five equal steps
 # over a decade or more leave its lower third, in logarithms more than half of it, without a value.
-_WIDE = 10.0
+WIDE = 10.0
 _Row = tuple[Any, ...]
 
 
@@ -327,26 +336,61 @@ def sensitivity(
     ['interface.meniscus.liquid.viscosity', 'loading.initial_gap']
     """
     settings = accuracy if accuracy is not None else Accuracy.standard
-    assumptions = [_Assumption(scene, settings, *one, n) for one in _checked(ranges, n).items()]
+    if isinstance(n, bool) or not isinstance(n, int) or n < 2:
+        raise DescriptionError("n", n, "be a whole number of at least 2: the ends of a range")
+    assumptions = [_Assumption(scene, settings, *one, n) for one in ranges_of(ranges).items()]
     paths = [path for one in assumptions for path in one.paths]
     base = dict(zip(paths, chain(*(one.base for one in assumptions)), strict=True))
     rows = [base]
     rows += [base | dict(zip(o.paths, row, strict=True)) for o in assumptions for row in o.rows]
+    found = answers(scene, rows, quantity, accuracy, unit=unit, workers=workers, progress=progress)
+    return _collected(assumptions, found)
+
+
+class Answers(NamedTuple):
+    """Answers of scenes, why some have none, the name and the unit of the quantity, its sources."""
+
+    results: list[float]
+    messages: list[str]
+    name: str
+    unit: str
+    sources: tuple[str, ...]
+
+
+def answers(
+    scene: Any,
+    rows: list[dict[str, Any]],
+    quantity: str | Callable[[Any], float],
+    accuracy: Accuracy | None = None,
+    *,
+    unit: str | None = None,
+    workers: int = 1,
+    progress: Callable[[float], None] | None = None,
+) -> Answers:
+    """Ask scenes for a quantity; parameters as of `sensitivity`, `rows` are values by path.
+
+    Raises
+    ------
+    DescriptionError
+        If the quantity does not exist, or something is given that is not used.
+    PlanError
+        If the effects do not fit the scene, for a quantity by name.
+    """
     if isinstance(quantity, str):
         _unused(unit=unit)
         run = partial(study, workers=workers, progress=progress)
-        made, unit = _studied(scene, rows, quantity, partial(run, accuracy=accuracy))
+        made, found_unit = _studied(scene, rows, quantity, partial(run, accuracy=accuracy))
         results = made.column(quantity).tolist()
         messages = [point.message if point.has_failed else "" for point in made.points]
-        return _collected(assumptions, results, messages, (quantity, unit), made.sources)
+        return Answers(results, messages, quantity, found_unit, made.sources)
     _unused(accuracy=accuracy, workers=None if workers == 1 else workers)
     results, messages = _asked(scene, rows, quantity, progress)
     name = getattr(quantity, "__name__", "quantity").replace("_", " ")
     sources: tuple[str, ...] = ()
     if isinstance(scene, ContactScene | SeparationScene | SlidingScene):
         with suppress(ContactkitError):  # the answer need not be that of a plan
-            sources = check_effects(scene, settings)
-    return _collected(assumptions, results, messages, (name, unit or "-"), sources)
+            sources = check_effects(scene, Accuracy.standard)
+    return Answers(results, messages, name, unit or "-", sources)
 
 
 def _studied(
@@ -366,14 +410,9 @@ def _studied(
     return made, made.unit(quantity)
 
 
-def _collected(
-    assumptions: list[_Assumption],
-    results: list[float],
-    messages: list[str],
-    named: tuple[str, str],
-    sources: tuple[str, ...],
-) -> Sensitivity:
+def _collected(assumptions: list[_Assumption], given: Answers) -> Sensitivity:
     """Answers in the order of the rows, as influences."""
+    results, messages = given.results, given.messages
     found, at = [], 1
     for one in assumptions:
         end = at + len(one.rows)
@@ -381,12 +420,17 @@ def _collected(
         at = end
     base = results[0]
     found.sort(key=lambda one: -one.swing(base))
-    return Sensitivity(*named, base, tuple(found), sources)
+    return Sensitivity(given.name, given.unit, base, tuple(found), given.sources)
 
 
-def _checked(ranges: Mapping[Any, Range | tuple[Any, Any]], n: int) -> dict[str, Range]:
-    if isinstance(n, bool) or not isinstance(n, int) or n < 2:
-        raise DescriptionError("n", n, "be a whole number of at least 2: the ends of a range")
+def ranges_of(ranges: Mapping[Any, Range | tuple[Any, Any]]) -> dict[str, Range]:
+    """Return ranges by their paths as text.
+
+    Raises
+    ------
+    DescriptionError
+        If there is none, or one is no range.
+    """
     if not isinstance(ranges, Mapping) or not ranges:
         raise DescriptionError("ranges", ranges, "name at least one assumption and its range")
     found = {}
@@ -425,7 +469,7 @@ class _Assumption:
 
 def _between(low: float, high: float, n: int) -> list[float]:
     """Values from end to end, by ratios where these are far apart."""
-    if low * high > 0.0 and max(high / low, low / high) > _WIDE:
+    if low * high > 0.0 and max(high / low, low / high) > WIDE:
         found = np.geomspace(low, high, n).tolist()
     else:
         found = np.linspace(low, high, n).tolist()

@@ -62,12 +62,13 @@ TOPICS = (
     Topic(
         "analyses",
         "Analyses and studies",
-        ("analyses", "studies"),
+        ("analyses", "studies", "contact.functionals"),
         (
             *_of("contactkit.analyses", "heights", "area_over_load", "load_for", "subsurface"),
-            *_of("contactkit.contact", "patches", "plastic_history"),
+            *_of("contactkit.contact", "patches", "plastic_history", "functionals", "adjoint"),
         ),
     ),
+    Topic("fits", "Fits", ("fitting",)),
     Topic("files", "Files", ("files",)),
     Topic(
         "pictures",

@@ -51,6 +51,7 @@ PAGES: Mapping[str, Page] = {
         1,
         (("deforming",), ("deforming/fmus.py", "--write")),
     ),
+    "gradients": Page("img/gradient-*.png", 0.2, (("gradients",),)),
     "adhesion": Page("adhesion.md: levels of a curve, and its picture", 5, _measured("adhesion")),
     "claims": Page("errata.md: statements of chapter 2", 3, _measured("claims")),
     "pictures": Page(

@@ -129,7 +129,7 @@ def test_release_times_are_right_by_every_preset():
 
 
 def test_no_error_of_ours_is_large_without_a_word():
-    """Where a setting gives a wrong answer, the note of the study tells."""
+    """Where a setting gives a wrong answer, the note of the study states it."""
     for name, points in SHOWN_STUDIES.items():
         wrong = [p for p in points if not p["is_model"] and (p["error"] or 0.0) > 1.0]
         assert not wrong or STUDIES[name].note, name

@@ -45,6 +45,8 @@ def readers() -> dict[str, Callable[[], Reader]]:
         "scene": _scenes,
         "result": _results,
         "curve": _curves,
+        "fit": _fits,
+        "measured curve": _measured,
         "map": _maps,
         "image": _images,
         "fmu": _fmus,
@@ -154,6 +156,43 @@ def _check_curve(curve: Any) -> None:
         assert isinstance(unit, str), (name, unit)
     assert str(curve)
     assert curve.contents().remarks["status"] == curve.status
+
+
+def _fits() -> Reader:
+    oil = ck.Meniscus(liquid=ck.Liquid(name="oil", viscosity=0.1))
+    scene = ck.SeparationScene(
+        interface=ck.Interface(upper=ck.Sphere(radius=1e-3), meniscus=oil),
+        loading=ck.ImposedSpeed(initial_gap=1e-6, final_gap=1e-5, speed=1e-5),
+        effects=(ck.ViscousForce(),),
+    )
+    given = {"over": "gap", "quantity": "viscous_force", "values": [1e-5, 5e-6, 2e-6]}
+    curve = ck.MeasuredCurve(at=[2e-6, 4e-6, 9e-6], **given)
+    made = ck.fit(scene, curve, {"interface.meniscus.liquid.viscosity": (1e-3, 10.0)})
+    with tempfile.TemporaryDirectory() as folder:
+        saved = made.save(Path(folder) / "fit").read_bytes()
+    return Reader({"fit.npz": saved}, ck.read_fit, _check_fit)
+
+
+def _check_fit(fit: Any) -> None:
+    for name, (value, unit) in fit.scalars().items():
+        assert isinstance(value, numbers.Real), (name, value)
+        assert isinstance(unit, str), (name, unit)
+    assert str(fit)
+    assert isinstance(fit.cite(), str)
+    assert fit.contents().rows == ("parameter",)
+
+
+def _measured() -> Reader:
+    plain = b"gap [um],force [mN]\n1.0,30\n2.0,20\n# a remark\n4.0,9.5e0\n"
+    quoted = b'"gap (um)";"force (mN)"\n1.0;30\n2.0;20\n'
+    read = functools.partial(ck.read_measured_curve, over="gap", quantity="force")
+    return Reader({"plain.csv": plain, "quoted.csv": quoted}, read, _check_measured)
+
+
+def _check_measured(curve: Any) -> None:
+    assert np.isfinite(curve.x).all()
+    assert curve.x.shape == curve.y.shape
+    assert isinstance(curve.units[0], str)
 
 
 # Height maps ---------------------------------------------------------------------------------

@@ -88,3 +88,41 @@ def test_a_closing_bridge_attracts_too_much():
     assert 0.1 < excess.min() < excess.max() < 1.0
     crossings = [float(np.interp(0.0, f[:8], distance[:8])) for f in (force, measured)]
     assert crossings[0] == pytest.approx(crossings[1], rel=0.12)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+def test_viscosity_and_rate_are_known_by_their_product_and_the_model_misses():
+    """Fitted together the points decide 2.5 times the quoted product, and reject the model."""
+    oil = ck.Liquid(
+        name="silicone oil",
+        viscosity=OPENING["viscosity_Pas"],
+        surface_tension=OPENING["surface_tension_N_m"],
+        density=OPENING["density_kg_m3"],
+    )
+    ball = ck.Body(surface=ck.Sphere(radius=RADIUS))
+    film = ck.Meniscus(liquid=oil, volume=VOLUME, contact_angle_lower=0.0, contact_angle_upper=0.0)
+    ends = {"initial_gap": 0.9 * DISTANCE[0] * RADIUS, "final_gap": 1.1 * DISTANCE[-1] * RADIUS}
+    scene = ck.SeparationScene(
+        interface=ck.Interface(lower=ball, upper=ball, meniscus=film),
+        loading=ck.ImposedSpeed(speed=OPENING["gap_rate_m_s"], **ends),
+        effects=(ck.MeniscusForce(profile="arc"), ck.ViscousForce()),
+    )
+    curve = ck.MeasuredCurve(
+        over="gap",
+        at=DISTANCE * RADIUS,
+        quantity="pull",
+        values=MEASURED,
+        noise="proportional",
+    )
+    sought = {
+        "interface.meniscus.liquid.viscosity": (1.0, 1e4),
+        "loading.speed": ("0.1 um/s", "1 mm/s"),
+    }
+    found = ck.fit(scene, curve, sought, intervals="linear")
+    assert "what the data decide is viscosity * speed^1 to 1" in found.undecided[0]
+    product = found["viscosity"].value * found["speed"].value
+    quoted = OPENING["viscosity_Pas"] * OPENING["gap_rate_m_s"]
+    assert product / quoted == pytest.approx(2.55, abs=0.1)
+    assert found.status == "misfit"
+    assert (found.curves[0].noise / MEASURED)[0] == pytest.approx(0.23, abs=0.02)

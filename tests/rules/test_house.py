@@ -168,7 +168,8 @@ def test_every_scene_object_is_described():
     scene_objects = {kind for kind in public if isinstance(kind, type) and attrs.has(kind)}
     # While running, not described.
     made = {ck.Plan, ck.ContactPlan, ck.SlidingPlan, ck.MotionState, ck.Pull}
-    made |= {ck.DeformingPlan, ck.DeformingResult}
+    made |= {ck.DeformingPlan, ck.DeformingResult, ck.Gradient}
+    made |= {ck.MeasuredCurve, ck.MeasuredBound, ck.Fit}  # data, in units of their own; a result
     made |= {ck.SeparationResult, ck.ContactResult, ck.SlidingResult, ck.SavedCurve}
     assert scene_objects - made <= {*DESCRIBED}
 

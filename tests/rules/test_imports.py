@@ -36,6 +36,7 @@ FLOORS = [
     ["files"],
     ["analyses", "shortcuts"],
     ["studies"],
+    ["fitting"],
     ["plot"],
     ["models"],
     ["fmu"],

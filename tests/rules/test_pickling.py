@@ -151,6 +151,23 @@ def deforming():
     )
 
 
+def readings():
+    return ck.MeasuredCurve(
+        over="gap",
+        at=[2e-6, 3e-6, 4e-6, 8e-6],
+        quantity="viscous_force",
+        values=[4.0, 1.2, 0.5, 0.06],
+    )
+
+
+def fitted():
+    sought = {"interface.meniscus.liquid.viscosity": (1e-3, 1e3)}
+    scene = separation(ck.ViscousForce(), interface=ck.Interface(
+        lower=ck.Flat(radius=1e-3), upper=ck.Flat(radius=1e-3), meniscus=ck.Meniscus(liquid=OIL)
+    ))  # fmt: skip
+    return through_pickle(ck.fit(scene, readings(), sought))  # without the search
+
+
 MADE = {
     "separation plan": lambda: ck.plan(film()),
     "sliding plan": lambda: ck.plan(sliding()),
@@ -172,6 +189,13 @@ MADE = {
     "sensitivity": lambda: ck.sensitivity(
         rough(), {"loading.pressure": (1e5, 2e5)}, "contact_area", GRID
     ),
+    "gradient": lambda: ck.solve(ck.plan(rough(), GRID)).gradient("load", "loading.pressure"),
+    "sobol": lambda: ck.sobol_indices(
+        rough(), {"loading.pressure": (1e5, 2e5)}, "contact_area", GRID, n=2
+    ),
+    "measured curve": readings,
+    "fit": fitted,
+    "comparison of fits": lambda: ck.compare_fits({"a": fitted(), "b": fitted()}),
     "load curve": lambda: ck.load_curve(ck.plan(rough(), GRID), pressures=[1e5, 2e5]),
     "load-displacement curve": lambda: ck.load_displacement(rough(), points=4, accuracy=GRID),
     "humidity curve": lambda: ck.humidity_curve(sphere(ck.MeniscusForce()), [0.2, 0.5]),

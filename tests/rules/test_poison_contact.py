@@ -66,6 +66,7 @@ OWNED = {
     ck.FrictionTraction(coefficient=0.2): set(),
     ck.FrictionCoupling(): {
         "contact.slip.coupling.coupling_of",
+        "contact.slip.coupling.coupling_strength",
         "elasticity.stress.tractions.traction_coupling",
         *FIELDS,
     },

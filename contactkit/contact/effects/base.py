@@ -10,6 +10,7 @@ declares which numbers and arrays of that part are shown in tables and files.
 from __future__ import annotations
 
 import abc
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeVar, cast
 
@@ -178,7 +179,9 @@ class InterfaceView(NamedTuple):
 
     `self_influence` is the displacement of a pixel under unit pressure on itself [m/Pa],
     `displacements` gives that of each body for a pressure [Pa] and the displacement of both [m],
-    `coupling` the displacement [m] that a `DisplacementTerm` causes under a pressure [Pa].
+    `coupling` the displacement [m] that a `DisplacementTerm` causes under a pressure [Pa], and
+    `strength` its `DisplacementTerm.strength` [-]. Undeformed the bodies touch at the rigid-body
+    approach `first_touch` [m].
     """
 
     grid: Grid
@@ -186,6 +189,8 @@ class InterfaceView(NamedTuple):
     displacements: Callable[[Map, Map], tuple[Map, ...]]
     hardness: HardnessLaw | None
     coupling: Callable[[Map], Map] | None
+    strength: float = 0.0
+    first_touch: float = -math.inf
 
 
 class Balance(NamedTuple):
@@ -354,6 +359,14 @@ class DisplacementTerm(ContactEffect[Part]):
     def prepare(self, scene: ContactScene, grid: Grid) -> Callable[[Map], Map]:
         """Return the displacement into the lower body [m] as a function of the pressure [Pa]."""
 
+    def strength(self, scene: ContactScene, grid: Grid) -> float:
+        """Bound of the displacement over that of the pressure itself [-], in the energy norm.
+
+        Above 1 contacts under the last displacement swing; if the term is skew (no work in sum),
+        steps that are relaxed by it converge all the same. Zero where nothing is known.
+        """
+        return 0.0
+
     def unknowns(self, view: InterfaceView) -> tuple[Unknown, ...]:
         """See `ContactEffect.unknowns`: the displacement."""
         from ..outer.displacement import TractionDisplacement
@@ -362,7 +375,8 @@ class DisplacementTerm(ContactEffect[Part]):
         if caused_by is None:
             return ()
         own = view.self_influence
-        return (TractionDisplacement(caused_by, view.grid.shape, own, self.name),)
+        shape, known = view.grid.shape, (view.strength, view.first_touch)
+        return (TractionDisplacement(caused_by, shape, own, self.name, *known),)
 
     @abc.abstractmethod
     def observe_frictional(self, contact: SolvedContact, frictional: FrictionalContact) -> Part:

@@ -27,9 +27,12 @@ def solve_held(
 
     A displacement w by tractions lowers the heights; under a tension t the pressure of contact is
     that of the heights raised by its displacement, of a load larger by its mean, and of a bound
-    larger by t, as bound and load are those of pressure less tension.
+    larger by t, as bound and load are those of pressure less tension. Under a relaxed displacement
+    the gap is `relaxation` times that which belongs to the pressure; the contact is returned with
+    the latter and with the displacement that does not lack any of it.
     """
     begun = time.perf_counter()
+    share = held.relaxation
     accuracy, load, bound, start = plan.accuracy, target.mean_pressure, held.bound, target.start
     heights = plan.heights if held.displacement is None else plan.heights - held.displacement
     pulled: Map | None = None
@@ -44,7 +47,7 @@ def solve_held(
         mean_pressure=load,
         rigid_approach=target.rigid_approach,
         bound=bound,
-        rtol=rtol,
+        rtol=share * rtol,
         start=start,
         max_iterations=accuracy.max_iterations,
         method=accuracy.method,
@@ -55,6 +58,10 @@ def solve_held(
     distance -= solution.rigid_approach
     if held.displacement is not None:
         distance += held.displacement
+        if share < 1.0:
+            distance /= share
+            held = held._replace(displacement=held.displacement + (1.0 - share) * distance)
+            solution = solution._replace(kkt=solution.kkt / share)
     counter.clock("contact", begun)
     return HeldContact(target, held, solution, displacement, distance)
 

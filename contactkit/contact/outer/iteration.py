@@ -166,7 +166,8 @@ def settle_unknowns(
     if n:
         groups.append((slice(0, n), Momentum() if has_momentum else Plain()))
     if n < len(ordered):
-        groups.append((slice(n, len(ordered)), Anderson()))
+        memory = max(one.memory for one in ordered[n:])
+        groups.append((slice(n, len(ordered)), Anderson(memory)))
     iteration = _Iteration(outer._replace(unknowns=ordered), target, bound)
     end = settle(
         iteration.evaluate,
@@ -174,7 +175,7 @@ def settle_unknowns(
         tuple(groups),
         outer.tolerance,
         admit=iteration.admit,
-        max_iterations=MAX_MONOTONIC if n else MAX_ITERATIONS,
+        max_iterations=MAX_MONOTONIC if n else _most_of(ordered),
     )
     contact, first = iteration.contact, iteration.first
     assert contact is not None
@@ -184,14 +185,19 @@ def settle_unknowns(
         problem = _inner_problem(plan, contact)
     if not problem and not end.is_settled:
         problem = _unsettled(ordered, end.changes, end.n_evaluations, outer.tolerance)
-    names = [one.name for one in ordered]
+    pairs = zip(ordered, end.values, strict=True)
+    values = {one.name: one.settled(value, contact) for one, value in pairs}
     return Settled(
         contact,
-        dict(zip(names, end.values, strict=True)),
-        {one: found.memory for one, found in zip(names, iteration.found, strict=True)},
+        values,
+        {one: found.memory for one, found in zip(values, iteration.found, strict=True)},
         first,
         problem,
     )
+
+
+def _most_of(unknowns: tuple[Unknown, ...]) -> int:
+    return math.ceil(MAX_ITERATIONS * max((one.slowness for one in unknowns), default=1.0))
 
 
 def settle_balance(

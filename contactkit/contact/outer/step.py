@@ -14,6 +14,7 @@ from attrs import evolve
 from ..effects.base import (
     AttractedContact,
     BoundedContact,
+    DisplacementTerm,
     FixedHardness,
     FrictionalContact,
     InterfaceView,
@@ -173,13 +174,15 @@ class Step:
 
 def _unknowns_of(plan: ContactPlan) -> tuple[Unknown, ...]:
     """Unknowns that the effects of a plan bring."""
-    interface = plan.prepared
+    interface, term = plan.prepared, plan.scene.effect(DisplacementTerm)
     view = InterfaceView(
         plan.grid,
         interface.solver.self_influence,
         interface.displacements,
         plan.hardness,
         plan.coupling,
+        term.strength(plan.scene, plan.grid) if term is not None else 0.0,
+        interface.first_touch,
     )
     return tuple(one for effect in effects_of(plan.scene) for one in effect.unknowns(view))
 

@@ -53,12 +53,14 @@ class Held(NamedTuple):
     """Unknowns as they enter one contact.
 
     `displacement` of the surface into the lower body by tractions [m], `tension` between the
-    surfaces [Pa], `bound` of the pressure [Pa]; None of those that no effect adds.
+    surfaces [Pa], `bound` of the pressure [Pa]; None of those that no effect adds. With a
+    `relaxation` below 1 the displacement lacks ``(1 - relaxation)`` of the gap.
     """
 
     bound: Map | float | None = None
     displacement: Map | None = None
     tension: Map | None = None
+    relaxation: float = 1.0
 
 
 class HeldContact(NamedTuple):
@@ -121,6 +123,10 @@ class Unknown(abc.ABC):
         Whether it is that of tractions along the surface, and zero without them.
     first_rtol, loosest : float
         Tolerance of the first contact, and of others far from the end, over the rms height [-].
+    memory : int
+        Evaluations that an acceleration by Anderson's method looks back on.
+    slowness : float
+        Evaluations that it may take over those of a map that contracts well [-].
     """
 
     name: ClassVar[str]
@@ -131,6 +137,8 @@ class Unknown(abc.ABC):
     is_of_tractions: ClassVar[bool] = False
     first_rtol: float = 1e-4
     loosest: float = 1e-2
+    memory: int = 4
+    slowness: float = 1.0
 
     @abc.abstractmethod
     def first(self, target: Target) -> Map:
@@ -154,6 +162,10 @@ class Unknown(abc.ABC):
 
     def admitted(self, value: Map, found: Map, target: Target) -> Map:
         """Return an accelerated value, moved to where a contact exists."""
+        return value
+
+    def settled(self, value: Map, contact: HeldContact) -> Map:
+        """Return the unknown [unit of its own] that a contact under an agreeing value has."""
         return value
 
     def carries(self, value: Map, target: Target) -> bool:

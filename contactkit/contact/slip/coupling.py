@@ -11,11 +11,13 @@ S       symbol of B over i: it is real, as B is odd in space
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import fft
 
+from ...elasticity.layered import compliance
 from ...elasticity.stress.isolated import Mean
 from ...elasticity.stress.tractions import traction_coupling
 from ..solver.convolution import symbol_width
@@ -28,8 +30,11 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["CouplingOperator", "coupling_of", "relative_coupling"]
+__all__ = ["CouplingOperator", "coupling_of", "coupling_strength", "relative_coupling"]
 
+# Wavenumbers per factor of e at which the strength is read: of films on bases it is smooth over the
+# thickness, and eight find its maximum to 1e-3.
+_PER_E = 8
 _ROUND_OFF = 1e-9  # of the displacement under the largest pressure on the whole window
 
 
@@ -132,6 +137,47 @@ def coupling_of(
         ]
     x, y = (np.ascontiguousarray(fft.rfft2(one, workers=workers).imag) for one in responses)
     return CouplingOperator((x, y), grid.shape, padded, workers)
+
+
+def coupling_strength(grid: Grid, lower: Layers | None, upper: Layers | None) -> float:
+    r"""Normal displacement by a traction over that by an equal pressure, at most [-].
+
+    .. math:: \max_\alpha \left|F_{12}^l - F_{12}^u\right| / (C^l + C^u)
+
+    over the wavenumbers of a window. For half-spaces all are alike, Dundurs' second constant;
+    times a coefficient of friction it is the norm of the coupling in that of the compliance.
+
+    Parameters
+    ----------
+    grid : Grid
+        Pixels of the window.
+    lower, upper : Layers or None
+        The bodies; None for a rigid one.
+
+    Raises
+    ------
+    DescriptionError
+        As `layered.compliance`.
+
+    Examples
+    --------
+    >>> from contactkit.elasticity.layer_stack import Layers
+    >>> from contactkit.scene.window import Grid
+    >>> grid = Grid((8, 8), (1e-9, 1e-9), periodic=True)
+    >>> round(coupling_strength(grid, Layers([1e9], [0.3]), None), 4)  # (1 - 2 nu)/(2 (1 - nu))
+    0.2857
+    """
+    sides = [n * d for n, d in zip(grid.shape, grid.pixel_size, strict=True)]
+    dy, dx = grid.pixel_size
+    low, high = 2.0 * math.pi / max(sides), math.pi * math.hypot(1.0 / dy, 1.0 / dx)
+    wavenumbers = np.geomspace(low, high, int(_PER_E * math.log(high / low)) + 2)
+    coupled, pressed = np.zeros_like(wavenumbers), np.zeros_like(wavenumbers)
+    for sign, layers in ((1.0, lower), (-1.0, upper)):
+        if layers is not None:
+            found = compliance(wavenumbers, *layers)
+            coupled += sign * found.F12
+            pressed += found.C
+    return float(np.abs(coupled / pressed).max())
 
 
 def _mirrored(half: Map, sign: float) -> Map:

@@ -9,6 +9,7 @@ truncated_set       Truncated active set, for half-spaces and layers of moderate
 projected_set       Projected active set, for stiff films.
 projection          Projection onto bounds in the metric of a sparse inverse.
 reduced_system      Linear system of the free pixels: Cholesky factor, or conjugate gradients.
+linear_response     Equations of a solved contact once more, with another right-hand side.
 conjugate_gradient  Preconditioned conjugate gradients, in place.
 sparse_inverse      Preconditioner: factorised sparse approximate inverse.
 cell_inverse        The same under stiff films: long waves carried by cells in contact.

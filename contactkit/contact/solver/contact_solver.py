@@ -14,22 +14,24 @@ import threading
 import time
 from collections.abc import Callable
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import DescriptionError, InfeasibleError
+from ...errors import ConvergenceError, DescriptionError, InfeasibleError
 from ...numerics.fft import Edges
 from .active_set import Outcome, improve
 from .convolution import SymbolMaker
 from .first_guess import first_guess
+from .linear_response import linear_response
 from .nested_grids import bytes_of, prepare
 from .problem import ContactProblem, Solution, coarser, fit, known_pressure, pose
 from .reference_solvers import Iterate, conjugate_gradient, quasi_newton
 from .transfer import prolong
 from .warm_start import Start, initial_pressure
 
-__all__ = ["ContactSolver", "Solution"]
+__all__ = ["ContactSolver", "Response", "Solution"]
 
 Floats = NDArray[np.float64]
 REFERENCE: dict[str, Callable[..., Iterate]] = {  # the fallback, or the method itself
@@ -41,6 +43,17 @@ COARSE_RTOL = 2e-2  # on coarser grids, which only provide the initial guess of 
 AT_BOUND = 1e-9  # fraction of the bound by which an extrapolation misses it in round-off
 MOST_STEPS = 400  # of the fallback: it has converged by then, or it is not worth its time
 MOST_AT_BOUND = 0.3  # fraction of the contact up to which an earlier solution is the better start
+
+
+class Response(NamedTuple):
+    """Pressures of a linear response (ny, nx), zero on other pixels, and what it took.
+
+    `shift` is the constant by which the displacement exceeds the wanted one [m].
+    """
+
+    pressure: Floats
+    shift: float
+    n_applications: int
 
 
 class ContactSolver:
@@ -239,6 +252,44 @@ class ContactSolver:
                     solver = partial(solver, near_inverse=self._near_inverse(problem))
                 outcome = self._by_reference(solver, problem, outcome, rtol, max_iterations)
             return self._solution(problem, outcome, rtol, fallback, begun)
+
+    def response(
+        self, free: NDArray[np.bool_], right: Floats, total: float | None, rtol: float = 1e-10
+    ) -> Response:
+        """Pressures on some pixels that displace these as given, and no others of them.
+
+        The linear equations of a contact whose pixels in contact stay what they are, and as they
+        are symmetric its adjoint equations.
+
+        Parameters
+        ----------
+        free : ndarray (ny, nx) of bool
+            The pixels.
+        right : ndarray (ny, nx)
+            Wanted displacement there [m], up to a constant if the sum is given.
+        total : float, optional
+            Sum of the pressures [Pa]; None: no constant is free.
+        rtol : float
+            Residual over the size of the right-hand side.
+
+        Raises
+        ------
+        ConvergenceError
+            If the residual stays above ten times the tolerance.
+        """
+        at, own = np.flatnonzero(free), self.self_influence
+        with self._lock:
+            for grid in self.grids:
+                grid.reset()
+            given = np.asarray(right, dtype=np.float64).ravel()[at] / own
+            found = linear_response(self.grids[0], at, given, total, rtol)
+            n = self.grids[0].applications()
+        if not found.residual <= 10.0 * rtol:
+            raise ConvergenceError(
+                f"the linear equations of the contact are solved to {found.residual:.2g} of their "
+                f"right-hand side, not to {rtol:g}: round-off of a stiff film; ask for less"
+            )
+        return Response(found.pressure.reshape(self.shape), found.shift * own, n)
 
     def _refuse_closed_gap(self, problem: ContactProblem) -> None:
         """No load closes the whole gap of a periodic map whose mean displacement is zero."""

@@ -4,5 +4,7 @@ base        Base class: lists the figures that can be drawn.
 contact     Figures of a contact and of its plan.
 separation  Figures of a separation and of a sliding.
 analyses    Figures of curves and other answers that take many solves.
-studies     Figures of a study, and of a sensitivity.
+fitting     Figures of a fit.
+studies     Figures of a study, a sensitivity, and of Sobol indices.
+scene       Figures of a gradient.
 """

@@ -25,7 +25,8 @@ __all__ = [
     "registered_figures",
 ]
 
-_ROOMS = ("analyses", "contact", "separation", "studies")  # each with a module of figures here
+# Each has a module of figures here.
+_ROOMS = ("analyses", "contact", "fitting", "scene", "separation", "studies")
 
 T = TypeVar("T")
 C = TypeVar("C", bound=Tabular)

@@ -8,13 +8,15 @@ from functools import partial
 from ...errors import DescriptionError
 from ...studies.columns import StudyColumns
 from ...studies.sensitivity import Sensitivity
+from ...studies.sobol import SobolIndices
 from ..axis_units import axis_label, readable
+from ..gradient import sobol_bars
 from ..study import study_curves
 from ..style import Axes, figure, legend
 from ..tornado import tornado
 from .base import Figures, registered_figures
 
-__all__ = ["SensitivityFigures", "StudyFigures"]
+__all__ = ["SensitivityFigures", "SobolFigures", "StudyFigures"]
 
 
 @registered_figures.register(StudyColumns)
@@ -88,6 +90,23 @@ class SensitivityFigures(Figures[Sensitivity]):
         """
         found: Sensitivity = self._owner
         return tornado(found, ax, most=most, names=names, missing=missing)
+
+
+@registered_figures.register(SobolIndices)
+class SobolFigures(Figures[SobolIndices]):
+    """Figures of Sobol' indices."""
+
+    def indices(self, *, names: Mapping[str, str] | None = None, ax: Axes | None = None) -> Axes:
+        """Draw first-order and total indices with their intervals, the largest on top.
+
+        Parameters
+        ----------
+        names : mapping, optional
+            What to call the assumptions, by path; else the end of the path.
+        ax : Axes, optional
+            Where to draw; a new figure if not given.
+        """
+        return sobol_bars(self._owner, ax, names)
 
 
 def _of_parameter(study: StudyColumns, path: str) -> tuple[float, str]:

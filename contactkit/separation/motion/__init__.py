@@ -4,4 +4,5 @@ state    State of a motion, and the forces that act in it.
 events   Release, rupture, rest on asperities, re-wetting, pull-off and re-contact of solids.
 cavity   A film with a cavity in a step: its forces, and the events that end the step.
 advance  Adaptive internal steps (error control), cut at events.
+sensitivity Slopes of a motion over parameters: its steps, differentiated.
 """

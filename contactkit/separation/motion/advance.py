@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import NamedTuple
 
 from ...errors import ConvergenceError, DescriptionError
 from ...numerics.events import EventStep, step_to_event
@@ -30,7 +31,7 @@ from .cavity import after, cavity_film, cut_at_event, cut_before_step
 from .events import SAME, apply_event, next_event
 from .state import MotionState, Pull, PullLaw, acting_film
 
-__all__ = ["advance", "internal_step", "step_cost"]
+__all__ = ["Traced", "advance", "internal_step", "moving_mass", "step_cost", "traced_step"]
 
 _CONTROL = StepSize(order=4)  # of the estimate
 _NO_GAP = 1e-13  # a gap [m] a thousand times smaller than an atom means nothing any more
@@ -101,7 +102,7 @@ def step_cost(before: MotionState, after: MotionState) -> int:
 
 def internal_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionState:
     """Take one internal step towards the time `end` [s], cut at the first event inside it."""
-    return _with_times(state, _one_step(plan, state, pull, end))
+    return _with_times(state, traced_step(plan, state, pull, end).state)
 
 
 def _with_times(before: MotionState, state: MotionState) -> MotionState:
@@ -116,22 +117,38 @@ def _with_times(before: MotionState, state: MotionState) -> MotionState:
     return state._replace(reformation_time=state.time, n_reformations=state.n_reformations + 1)
 
 
-def _one_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> MotionState:
+class Traced(NamedTuple):
+    """State after an internal step, and how it was found: what a sensitivity follows.
+
+    Without `taken` nothing was integrated. `event` is the gap [m] that ended the step, if any, and
+    `is_last` states that the span ended it.
+    """
+
+    state: MotionState
+    problem: Problem | None = None
+    taken: Step | None = None
+    length: float = 0.0
+    event: float | None = None
+    is_last: bool = False
+
+
+def traced_step(plan: Plan, state: MotionState, pull: PullLaw, end: float) -> Traced:
+    """Take one internal step as `internal_step` does, and return how it was found."""
     rest_gap = plan.scene.imposed_force.rest_gap
     if state.in_contact:
-        return _rest(plan, state, pull, end)
+        return Traced(_rest(plan, state, pull, end))
     if state.gap < _NO_GAP:
         raise _no_step(state, plan.accuracy.time_rtol)
     if state.speed < 0.0 and state.gap <= rest_gap * (1.0 + SAME):
-        return state._replace(in_contact=True, gap=rest_gap, speed=0.0)
+        return Traced(state._replace(in_contact=True, gap=rest_gap, speed=0.0))
     film = acting_film(plan, state)
     cavity = cut_before_step(film, state.cavity, (state.gap, state.speed))
     if cavity is not None:
         # What a full film allowed says nothing of steps with a cavity: `step` is found anew.
-        return state._replace(cavity=cavity, step=0.0)
+        return Traced(state._replace(cavity=cavity, step=0.0))
     problem = _problem(plan, film, state, pull)
     if problem.size <= _NO_FORCE and _is_at_rest(problem):
-        return state._replace(speed=0.0)
+        return Traced(state._replace(speed=0.0))
     if problem.size <= max(_NO_FORCE, _FOOT * abs(pull(end))):
         problem = _expecting(problem, 0.5 * abs(pull(end)))  # the mean of a ramp
     return _stepped(plan, film, state, problem, end)
@@ -167,7 +184,7 @@ def _added(impulses: Mapping[str, float], more: Mapping[str, float]) -> Mapping[
 
 def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -> Problem:
     """Pose the step from a state, with a film or, where nothing is left of it, without one."""
-    loading, mass = plan.scene.imposed_force, _mass(plan)
+    loading, mass = plan.scene.imposed_force, moving_mass(plan)
     gap, speed, rtol = state.gap, state.speed, plan.accuracy.time_rtol
     cavity = cavity_film(film, state.cavity, (gap, speed))
     forces = film.forces if film is not None else _no_forces
@@ -204,7 +221,7 @@ def _no_forces(gap: float, speed: float) -> Forces:
     return Forces(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-def _mass(plan: Plan) -> float:
+def moving_mass(plan: Plan) -> float:
     """Moving mass [kg]; without one, so little that its momentum is 1e-14 of the impulse given."""
     loading = plan.scene.imposed_force
     if loading.mass is not None:
@@ -233,7 +250,7 @@ def _expecting(problem: Problem, force: float) -> Problem:
 
 def _stepped(
     plan: Plan, film: Film | None, state: MotionState, problem: Problem, end: float
-) -> MotionState:
+) -> Traced:
     """State after the longest step that meets the tolerance, or the first event inside it."""
     left = end - state.time
     length = min(state.step or _first_length(problem, left), left)
@@ -263,7 +280,7 @@ def _stepped(
         if turn is not None:
             (taken, length), event = turn, None
         if length == 0.0:  # the phase changes where the step starts, and no time passes
-            return state._replace(cavity=law.after_event(cavity, state.gap, state.speed))
+            return Traced(state._replace(cavity=law.after_event(cavity, state.gap, state.speed)))
         cavity = after(law, cavity, taken, problem.begin.gap)
         if turn is not None:
             cavity = law.after_event(cavity, *taken.stages[2][1:])
@@ -285,7 +302,10 @@ def _stepped(
         n_rejected=state.n_rejected + rejected,
         n_evaluations=state.n_evaluations + evaluations,
     )
-    return state if event is None else apply_event(plan, film, state, event)
+    is_last = length == left
+    if event is not None:
+        state = apply_event(plan, film, state, event)
+    return Traced(state, problem, taken, length, event, is_last)
 
 
 def _first_length(problem: Problem, left: float) -> float:

@@ -7,12 +7,12 @@ from ..cavity.state import FULL
 from ..plan import Film, Plan
 from .state import MotionState
 
-__all__ = ["SAME", "apply_event", "next_event"]
+__all__ = ["SAME", "apply_event", "closed_gap", "next_event"]
 
 SAME = 1e-11  # two gaps closer than this, relatively, are one
 
 
-def _closed_gap(plan: Plan) -> float:
+def closed_gap(plan: Plan) -> float:
     """Gap below which the bodies count as closed again, so that the next release is a new one."""
     loading = plan.scene.imposed_force
     return min(2.0 * loading.initial_gap, 0.5 * (loading.initial_gap + loading.final_gap))
@@ -35,7 +35,7 @@ def next_event(plan: Plan, film: Film | None, state: MotionState, gap: float) ->
         if state.detached:
             events += (plan.film.recontact,)
         if not state.armed:
-            events += (_closed_gap(plan),)
+            events += (closed_gap(plan),)
     return first_crossing(events, state.gap, gap, SAME)
 
 
@@ -58,7 +58,7 @@ def apply_event(plan: Plan, film: Film | None, state: MotionState, gap: float) -
         if film is not None and gap == film.release:
             state = state._replace(detached=True)
         return state
-    if gap <= _closed_gap(plan):
+    if gap <= closed_gap(plan):
         state = state._replace(armed=True)
     if gap <= plan.film.recontact:
         state = state._replace(detached=False)

@@ -120,6 +120,26 @@ def test_a_sliding_cylinder_is_pressed_off_its_apex(along, coefficient):
     np.testing.assert_allclose(pressure, wanted, atol=0.06 * wanted.max())
 
 
+@pytest.mark.parametrize("coefficient", [4.0, 7.0, 12.0])
+def test_a_cylinder_slides_under_any_coefficient_as_johnson_says(coefficient):
+    """The closed form above; its pressure is all but a jump at one edge, where pixels ring."""
+    line = 0.2
+    friction = ck.FrictionTraction(coefficient=coefficient, direction=math.pi / 2.0)
+    pressing = ck.Pressing(force=line * 4 * WIDTH / N)
+    run = solved(cylinder("x"), "x", pressing, friction, ck.FrictionCoupling())
+    pressure = run.pressure[:, 0]
+    e = math.atan(coefficient * (1.0 - 2.0 * NU) / (2.0 * (1.0 - NU))) / math.pi
+    a = math.sqrt(4.0 * line * R / (math.pi * MODULUS * (1.0 - 4.0 * e**2)))
+    x = (np.arange(N) + 0.5 - N / 2) * WIDTH / N
+    assert abs(x @ pressure / pressure.sum()) == pytest.approx(8.0 * a * e / 3.0, rel=0.02)
+    assert 0.5 * run.contact_area / (4 * WIDTH / N) == pytest.approx(a, abs=WIDTH / N)
+    x = math.copysign(1.0, -float(x @ pressure)) * x + 2.0 * a * e
+    inside = np.maximum(a - x, 0.0) ** (0.5 + e) * np.maximum(a + x, 0.0) ** (0.5 - e)
+    wanted = MODULUS * math.cos(math.pi * e) / (2.0 * R) * inside
+    missed = np.abs(np.cumsum(pressure - wanted)).max() / np.cumsum(wanted)[-1]
+    assert missed < 0.03
+
+
 def test_friction_along_a_cylinder_moves_nothing():
     friction = (ck.FrictionTraction(coefficient=0.5), ck.FrictionCoupling())
     run = solved(cylinder("x"), "x", ck.Pressing(force=0.5 * 4 * WIDTH / N), *friction)

@@ -94,9 +94,9 @@ def test_a_film_that_is_all_but_rigid_and_rough_to_the_pixel():
     """Round-off of single precision, and pressures scaled to the load, would end the descent."""
     free = solve(64, 1e6, 0.003, 1e5, is_resolved=False)
     bound = max(0.15 * free.pressure.max(), 1.1e5 * BASE_LOAD)
-    capped = solve(64, 1e6, 0.003, 1e5, is_resolved=False, bound=bound)
-    assert capped.pressure.max() == pytest.approx(bound, rel=1e-12)
-    for s in (free, capped):
+    bounded = solve(64, 1e6, 0.003, 1e5, is_resolved=False, bound=bound)
+    assert bounded.pressure.max() == pytest.approx(bound, rel=1e-12)
+    for s in (free, bounded):
         assert s.converged
         assert not s.fallback
         assert s.n_applications <= 200

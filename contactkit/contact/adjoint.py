@@ -1,0 +1,206 @@
+r"""Gradient of a number of a solved contact: one more solve, with the same operator.
+
+Where pixels in contact stay what they are, p and the rigid-body approach follow from
+
+.. math:: (C p)_F - h_F - \delta = 0, \quad p_Z = 0, \quad p_B = H, \quad \sum p = W
+          \text{ or } \delta = d - \max h
+
+on the free pixels F, those apart Z and those at the hardness B. For a functional J with slopes
+:math:`g = J_p + C J_u` the adjoint pressure :math:`\lambda` on F solves the same equations with g
+on their right, and every derivative is a product with it:
+
+.. math:: dJ = (\lambda + J_h)\cdot dh - (\lambda - J_u)\cdot dC\,p + (g - C\lambda)_B\cdot dH_B
+          - \mu\, (dW - \sum dH_B)
+
+with the constant :math:`\mu` of the adjoint displacement under a load; at an approach
+:math:`(\sum\lambda + J_\delta)\, d\delta` takes the place of the last term. (Adjoint equations of
+obstacle problems: Mignot 1976; the same with dh, dC, dH and dW known for a parameter.)
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..errors import NotSimulatedError
+from .effects.base import (
+    Attraction,
+    DisplacementTerm,
+    FixedHardness,
+    LoadHistory,
+    LoadTerm,
+)
+from .effects.partial_slip import PartialSlip
+from .effects.plasticity import AT_HARDNESS
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .functionals import Slopes
+    from .plan import ContactPlan
+    from .result import ContactResult
+
+    Map = NDArray[np.float64]
+
+__all__ = ["Adjoint", "Change", "adjoint", "check_differentiable"]
+
+# Pressure over its maximum, and gap over the largest displacement, up to which a pixel is
+# undecided: the tolerance of the contact conditions in `Accuracy.standard` is 1e-8 of the rms
+# height. Wider bands count pixels that a change of a per mille does not reach.
+_UNDECIDED = 1e-6
+
+
+class Change(NamedTuple):
+    """Change of what a contact is made from, per unit of a parameter; None where it has none.
+
+    `heights` (ny, nx) [m], the displacement by the present pressure `pressed` (ny, nx) [m] as the
+    compliance changes, `hardness` [Pa] a number or a map, `load` the mean pressure [Pa] and
+    `approach` that from first touch [m].
+    """
+
+    heights: Map | None = None
+    pressed: Map | None = None
+    hardness: Map | float | None = None
+    load: float = 0.0
+    approach: float = 0.0
+
+
+class Adjoint(NamedTuple):
+    """Slopes of a number over all that a contact is made from.
+
+    `heights` and `pressed` (ny, nx) [unit/m], `hardness` [unit/Pa] (ny, nx), `load` over the mean
+    pressure [unit/Pa], `approach` over that from first touch [unit/m]. `n_undecided` pixels carry
+    no pressure and have no gap either: the slopes are one-sided. `n_applications` of the operator.
+    """
+
+    heights: Map
+    pressed: Map
+    hardness: Map
+    load: float
+    approach: float
+    n_undecided: int
+    n_applications: int
+
+    def along(self, change: Change) -> float:
+        """Return the slope along a change."""
+        found = self.load * change.load + self.approach * change.approach
+        for slope, one in (
+            (self.heights, change.heights),
+            (self.pressed, change.pressed),
+            (self.hardness, change.hardness),
+        ):
+            if one is not None:
+                found += float((slope * one).sum())
+        return found
+
+
+def check_differentiable(plan: ContactPlan) -> None:
+    """Refuse a contact whose gradient is not that of its pressure alone.
+
+    Raises
+    ------
+    NotSimulatedError
+        Names the effect and the reason.
+    """
+    scene = plan.scene
+    reasons = {
+        LoadHistory: "the shape depends on all loads before",
+        DisplacementTerm: "friction displaces the surfaces, and the equations are not symmetric",
+        Attraction: "the tension follows the gap, and states end in jumps",
+    }
+    for role, reason in reasons.items():
+        effect = scene.effect(role)
+        if effect is not None:
+            raise _refused(type(effect).__name__, reason)
+    slip, film = scene.effect(PartialSlip), scene.effect(LoadTerm)
+    if slip is not None and slip.couples(scene):
+        raise _refused("PartialSlip(coupled=True)", "the tractions depend on the path of the load")
+    if film is not None and film.self_consistent:
+        reason = "its force adds to the load by whole pixels"
+        raise _refused(f"{type(film).__name__}(self_consistent=True)", reason)
+    if plan.hardness is not None and not isinstance(plan.hardness, FixedHardness):
+        raise _refused("HardnessLimit", "its hardness depends on the displacement")
+
+
+def _refused(what: str, reason: str) -> NotSimulatedError:
+    return NotSimulatedError(
+        f"no gradient of a contact with {what}: {reason}; leave it out, or take differences of "
+        "whole solves (ck.sensitivity)"
+    )
+
+
+def adjoint(plan: ContactPlan, result: ContactResult, slopes: Slopes) -> Adjoint:
+    """Solve the adjoint equations of a solved contact.
+
+    Parameters
+    ----------
+    plan : ContactPlan
+        Its plan, prepared.
+    result : ContactResult
+        The contact.
+    slopes : Slopes
+        Of the number that is asked for.
+
+    Raises
+    ------
+    ConvergenceError
+        If the linear equations are not solved to 1e-9 of their right-hand side.
+    """
+    solver, p, shape = plan.prepared.solver, result.pressure, plan.grid.shape
+    zero, n_applications = np.zeros(shape), 0
+
+    def displaced(values: Map) -> Map:
+        nonlocal n_applications
+        n_applications += 1
+        return solver.displacement(values)
+
+    by_u = zero if slopes.displacement is None else slopes.displacement
+    by_h = zero if slopes.heights is None else slopes.heights
+    g = zero if slopes.pressure is None else slopes.pressure
+    if by_u.any():
+        g = g + displaced(by_u)
+    at_bound = _at_bound(plan, p)
+    free = (p > 0.0) & ~at_bound
+    is_loaded = plan.rigid_approach is None
+    found = solver.response(free, g, -slopes.approach if is_loaded else None)
+    adjoint_pressure, n_applications = found.pressure, n_applications + found.n_applications
+    of_hardness, by_approach = zero, 0.0
+    if at_bound.any():
+        left = g - displaced(adjoint_pressure)
+        of_hardness = np.where(at_bound, left + (found.shift if is_loaded else 0.0), 0.0)
+    heights = adjoint_pressure + by_h
+    if not is_loaded:
+        by_approach = float(adjoint_pressure.sum()) + slopes.approach
+        heights[np.unravel_index(int(np.argmax(plan.heights)), shape)] -= by_approach
+    by_load = -found.shift * p.size if is_loaded else 0.0
+    undecided = _n_undecided(result, at_bound)
+    return Adjoint(
+        heights,
+        by_u - adjoint_pressure,
+        of_hardness,
+        by_load,
+        by_approach,
+        undecided,
+        n_applications,
+    )
+
+
+def _at_bound(plan: ContactPlan, pressure: Map) -> NDArray[np.bool_]:
+    law = plan.hardness
+    if not isinstance(law, FixedHardness):
+        return np.zeros(pressure.shape, dtype=bool)
+    return np.asarray((pressure >= np.asarray(law.value) * AT_HARDNESS) & (pressure > 0.0))
+
+
+def _n_undecided(result: ContactResult, at_bound: NDArray[np.bool_]) -> int:
+    """Pixels that a change however small may bring into contact, or out of it."""
+    p, gap = result.pressure, result.gap
+    if not p.any():
+        return 0
+    length = float(np.abs(result.displacement).max())
+    little = p <= _UNDECIDED * float(p.max())
+    close = gap <= _UNDECIDED * length
+    holes = result.holes
+    found = little & close & ~at_bound
+    return int((found if holes is None else found & ~holes).sum())

@@ -1,0 +1,7 @@
+"""Gradients of numbers of a result, without automatic differentiation.
+
+of_result    `gradient_of`, what ``result.gradient`` calls.
+differences  Differences of what a scene is prepared to, over a parameter.
+contact      Of a contact: one adjoint solve with the same operator.
+motion       Of a separation: sensitivities of the implicit steps.
+"""
