@@ -114,7 +114,8 @@ class Accuracy(Described):
         it decides how many cells there are. Of a separation. By level 1e-2, 1e-3, 1e-4.
     grid : int or (int, int), optional
         Pixels of the window of a contact, (ny, nx) or one number for both. None: those of the
-        measured surface, else 256.
+        measured surface, else 256. Also the cells over the film of `ElasticBodies` on a map; None:
+        those of the measured surface, else eight in the shortest wave, 64 to 512.
     rtol : float
         Maximum violation of the contact conditions, relative to the rms height of the surface
         [-]: overlap, or a gap under pressure. The tolerance of the outer iterations (hardness,
@@ -212,11 +213,16 @@ class Accuracy(Described):
         """Return the same, its settings of these names given though they have their usual value."""
         return evolve(self, origin=(self.level, self.given.union(names) - {"level"}))
 
-    def unread(self, scene: str) -> str:
-        """Name of a setting that is given and that a kind of scene does not read; or empty."""
+    def unread(self, scene: str, *, takes_grid: bool = False) -> str:
+        """Name of a setting that is given and that a kind of scene does not read; or empty.
+
+        Some separations take `grid`.
+        """
         if "max_iterations" in self.given and self.method == "active-set":
             return "max_iterations"
         read = _READ_BY.get(scene, tuple(self.values))
+        if takes_grid:
+            read = (*read, "grid")
         return next((n for n in self.values if n in self.given and n not in read), "")
 
     def saved(self) -> dict[str, Any]:

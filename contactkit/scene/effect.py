@@ -25,6 +25,8 @@ class Effect(Described, abc.ABC):
     """Effects of a kind of scene, as its role declares: ``"contact effect"`` and so on."""
     name: ClassVar[str]
     summary: ClassVar[str]
+    takes_grid: ClassVar[bool] = False
+    """Whether a separation with it may be solved on cells of `Accuracy.grid`."""
     figures: ClassVar[tuple[str, ...]] = ()
     """Figures of a result that this effect makes possible: methods of ``result.plot``."""
 

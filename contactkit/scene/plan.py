@@ -155,7 +155,10 @@ def check_accuracy(given: object, scene: Scene) -> None:
         known = isinstance(given, str) and hasattr(Accuracy, given)
         cure = f"ck.Accuracy.{given}" if known else "ck.Accuracy(rtol=...)"
         raise PlanError(f"an Accuracy is needed beside the scene, got {given!r}; write {cure}")
-    if isinstance(given, Accuracy) and (name := given.unread(_kind_of(scene))):
+    takes_grid = any(getattr(effect, "takes_grid", False) for effect in scene.effects)
+    if isinstance(given, Accuracy) and (
+        name := given.unread(_kind_of(scene), takes_grid=takes_grid)
+    ):
         reader = (
             "the method active-set" if name == "max_iterations" else f"a {type(scene).__name__}"
         )

@@ -193,6 +193,11 @@ class Measured(Surface):
         """See `Surface.isolated_maps`; reads the file."""
         return (self.path,) if _of_file(self).is_periodic is False else ()
 
+    @property
+    def periodic_maps(self) -> tuple[str, ...]:
+        """See `Surface.periodic_maps`; reads the file."""
+        return (self.path,) if _of_file(self).is_periodic else ()
+
     def heights_on(self, grid: Grid) -> Map:
         """See `Surface.heights_on`; reads the file."""
         return _of_file(self).heights_on(grid)
@@ -398,6 +403,11 @@ class Heights(Surface):
         """See `Surface.isolated_maps`."""
         return ("Heights",) if self.is_periodic is False else ()
 
+    @property
+    def periodic_maps(self) -> tuple[str, ...]:
+        """See `Surface.periodic_maps`."""
+        return ("Heights",) if self.is_periodic else ()
+
     def heights_on(self, grid: Grid) -> Map:
         """See `Surface.heights_on`."""
         return self.heights.copy()
@@ -437,6 +447,11 @@ class CombinedSurface(Surface):
     def isolated_maps(self) -> tuple[str, ...]:
         """See `Surface.isolated_maps`."""
         return tuple(name for part in self.parts for name in part.isolated_maps)
+
+    @property
+    def periodic_maps(self) -> tuple[str, ...]:
+        """See `Surface.periodic_maps`."""
+        return tuple(name for part in self.parts for name in part.periodic_maps)
 
     @property
     def void_pixels(self) -> Mask | None:

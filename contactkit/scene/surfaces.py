@@ -110,6 +110,11 @@ class Surface(Described):
         return ()
 
     @property
+    def periodic_maps(self) -> tuple[str, ...]:
+        """Names of the height maps in it that state that they repeat beyond their edges."""
+        return ()
+
+    @property
     def void_pixels(self) -> Mask | None:
         """Pixels (ny, nx) that carry no load; None for a surface without holes."""
         return None

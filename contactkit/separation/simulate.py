@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, overload
 
 from ..errors import ConvergenceError, InfeasibleError, PlanError
@@ -44,7 +44,11 @@ def simulate(
 
 @overload
 def simulate(
-    plan: DeformingPlan, *, throw: bool = True, progress: Progress | None = None
+    plan: DeformingPlan,
+    *,
+    throw: bool = True,
+    progress: Progress | None = None,
+    fields_at: Sequence[float] = (),
 ) -> DeformingResult: ...
 
 
@@ -59,6 +63,7 @@ def simulate(
     *,
     throw: bool = True,
     progress: Progress | None = None,
+    fields_at: Sequence[float] = (),
 ) -> SeparationResult | DeformingResult | SlidingResult:
     """Run a plan.
 
@@ -72,6 +77,8 @@ def simulate(
         ``stuck``.
     progress : callable, optional
         Called with the fraction that is done.
+    fields_at : sequence of float
+        Of a `DeformingPlan`, times [s] at which its sections and maps are wanted exactly.
 
     Returns
     -------
@@ -91,8 +98,13 @@ def simulate(
         if isinstance(plan, DeformingPlan):
             from .deforming.run import pull_apart
 
-            return pull_apart(plan)
+            return pull_apart(plan, fields_at)
     check_plan(plan, (Plan, SlidingPlan))
+    if len(fields_at):
+        raise PlanError(
+            f"simulate.fields_at = {fields_at!r} is read by plans with ElasticBodies alone: leave "
+            "it out"
+        )
     begun = clock.perf_counter()
     if isinstance(plan, SlidingPlan):
         slid = slide(plan, begun)

@@ -19,6 +19,7 @@ from ...lubrication.elastohydrodynamic.mesh import RingMesh, disc_nodes, graded_
 from ...lubrication.elastohydrodynamic.motion import SmoothGap
 from ...scene.loading import ImposedForce, ImposedSpeed, PressAndPull
 from ...scene.scenes import SeparationScene
+from ...separation.deforming.checks import is_on_rings
 from ...separation.deforming.effects import ElasticBodies, SolidContact
 from ...separation.deforming.maxwell import HOLDS_TO, series_error, series_stiffness
 from ...separation.deforming.plan import DeformingPlan, plan_deforming
@@ -141,14 +142,16 @@ def deforming_film(
     """
     made, beta = _planned(scene)
     film, exactness = made.film, _exactness(made, beta, film_rtol, mass)
-    stiffness = _stiffness(made)
+    stiffness, rings = _stiffness(made), None
+    if exactness.film == "rings" and isinstance(film, SmoothGap):  # `_check` refuses maps
+        rings = _rings(film, made.modulus, exactness.rings)
     bodies = Bodies(
         gap=film.gap,
         stiffness=stiffness,
         widens=math.isfinite(film.radius),
         ratio=stiffness * film.gap / _unit_force(made),
         series=_series(scene, film.viscosity) if exactness.film == "series" else None,
-        rings=_rings(film, made.modulus, exactness.rings) if exactness.film == "rings" else None,
+        rings=rings,
     )
     return DeformingFilm(bodies, exactness, made)
 
@@ -176,6 +179,12 @@ def _check(scene: SeparationScene) -> None:
                 "with their own contacts and cavities, and a step takes a second; run the scene "
                 "itself, ck.simulate, or give a Flat, a Sphere or a Paraboloid"
             )
+    if not is_on_rings(scene):
+        raise PlanError(
+            "no FMU holds ElasticBodies on a face that is no even disc: its film is a field on a "
+            "map, and a step takes a second; run the scene itself, ck.simulate, or give a Flat "
+            "without planform, recesses, holes, relief and tilt"
+        )
     for kind, why in (
         (SolidContact, "asperities that carry"),
         (TensionLimit, "a film that cavitates"),

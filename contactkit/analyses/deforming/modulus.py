@@ -13,10 +13,11 @@ from ...accuracy import Accuracy
 from ...errors import PlanError
 from ...lubrication.elastohydrodynamic import response
 from ...lubrication.elastohydrodynamic.mesh import RingMesh, disc_nodes, graded_nodes
+from ...lubrication.elastohydrodynamic.motion import SmoothGap
 from ...scene.curve import Curve, Shown
 from ...scene.plan import check_scene
 from ...scene.scenes import SeparationScene
-from ...separation.deforming.plan import DeformingPlan, plan_deforming
+from ...separation.deforming.plan import plan_deforming
 from ...units import si
 from .pull_off_speed import positive_values
 
@@ -116,15 +117,20 @@ def modulus_curve(
     """
     check_scene(scene, SeparationScene)
     made = plan_deforming(scene, accuracy)
-    if made.film.wetting is not None:
+    film = made.film
+    if not isinstance(film, SmoothGap):
+        raise PlanError(
+            "modulus_curve takes smooth round bodies, whose film is solved on rings: give a Flat "
+            "without outline and relief, a Sphere or a Paraboloid"
+        )
+    if film.wetting is not None:
         raise PlanError(
             "modulus_curve needs a flooded film: the rim of a meniscus moves; leave "
             "interface.meniscus without volume and pressure, and MeniscusForce out"
         )
     given = positive_values(frequencies, "modulus_curve(frequencies)", "Hz")
     rates = math.tau * given
-    found = response.extrapolated(*(_moduli(made, n, rates) for n in _meshes(made, rates)))
-    film = made.film
+    found = response.extrapolated(*(_moduli(film, n, rates) for n in _meshes(film)))
     is_flat = math.isinf(film.radius)
     limit = response.flat_stiff_limit if is_flat else response.sphere_stiff_limit
     size = film.rim if is_flat else film.radius
@@ -144,8 +150,7 @@ def modulus_curve(
     )
 
 
-def _meshes(plan: DeformingPlan, rates: Floats) -> tuple[int, int, int]:
-    film = plan.film
+def _meshes(film: SmoothGap) -> tuple[int, int, int]:
     finest = _FLAT_ELEMENTS
     if math.isfinite(film.radius):
         finest = _ELEMENTS * math.ceil(max(math.asinh(film.rim / film.width), 2.0))
@@ -153,8 +158,7 @@ def _meshes(plan: DeformingPlan, rates: Floats) -> tuple[int, int, int]:
     return quarter, 2 * quarter, 4 * quarter
 
 
-def _moduli(plan: DeformingPlan, elements: int, rates: Floats) -> NDArray[np.complex128]:
-    film = plan.film
+def _moduli(film: SmoothGap, elements: int, rates: Floats) -> NDArray[np.complex128]:
     if math.isinf(film.radius):
         nodes = disc_nodes(elements, film.rim)
     else:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from attrs import evolve, frozen
@@ -20,7 +20,7 @@ from .follow import Control, State, Track, begun, follow
 from .mesh import RingMesh, disc_nodes, graded_nodes
 from .wet_gap import Fields, WetGap, at_rest
 
-__all__ = ["Motion", "Phase", "Profile", "SmoothGap", "move"]
+__all__ = ["Motion", "Phase", "Profile", "SmoothGap", "end_time", "move", "with_times"]
 
 Array = NDArray[np.float64]
 
@@ -199,7 +199,7 @@ def move(
     units = _units(film, speed)
     middle = _run(film, units, phases, elements // 2, tolerance)
     times = np.unique([state.time for state in middle.states])
-    given = _with_times(phases, times * units.time)
+    given = with_times(phases, times * units.time)
     others = [_run(film, units, given, n, tolerance) for n in (elements // 4, elements)]
     runs = [others[0], middle, others[1]]
     common = _common(runs, times)
@@ -310,7 +310,7 @@ def _run(
         )
         track = follow(moved, state, times, control, every_step=True, until=phase.until / units.gap)
         state = track.states[-1]
-        ends.append(_end_time(track, phase.until / units.gap))
+        ends.append(end_time(track.states, phase.until / units.gap))
         tracks.append(track)
     states = [one for track in tracks for one in track.states]
     ruptures = [time for track in tracks for time in track.rupture_times]
@@ -322,12 +322,12 @@ def _run(
     return _Run(gap, states, ends, ruptures, counts)
 
 
-def _end_time(track: Track, until: float) -> float:
-    """When a phase ended: in the last step, on the cubic of its gaps and speeds."""
-    end = track.states[-1]
-    if end.fields.rigid_gap < until or len(track.states) < 2:
-        return end.time
-    start = track.states[-2]
+def end_time(states: Sequence[Any], until: float) -> float:
+    """Time at which a phase ended: in the last step of its states, on the cubic through them."""
+    end = states[-1]
+    if end.fields.rigid_gap < until or len(states) < 2:
+        return float(end.time)
+    start = states[-2]
     length = end.time - start.time
     low, high = 0.0, 1.0
     for _ in range(60):
@@ -340,10 +340,10 @@ def _end_time(track: Track, until: float) -> float:
             + s * s * (s - 1.0) * length * b.speed
         )
         low, high = (s, high) if gap < until else (low, s)
-    return start.time + high * length
+    return float(start.time + high * length)
 
 
-def _with_times(phases: Sequence[Phase], times: Array) -> list[Phase]:
+def with_times(phases: Sequence[Phase], times: Array) -> list[Phase]:
     """The same phases, with a step that ends at each of some times [s]."""
     found = []
     for phase in phases:

@@ -80,9 +80,13 @@ class Progress(abc.ABC, Generic[S, T]):
                 raise StepFailedError(f"no step can be solved at t = {self.state.time:g}")
             accepted = self._try(length, self.length if cut else 0.0)
             if accepted and self.every_step and not (cut or self.is_over):
-                self.kept.append(self.state)
+                self._keep()
         if not self.is_over:
             self.state = self.state._replace(time=time)
+        self._keep()
+
+    def _keep(self) -> None:
+        """Keep the state of now among those of the result."""
         self.kept.append(self.state)
 
     def _ruptures(self, solved: T) -> bool:
@@ -103,7 +107,7 @@ class Progress(abc.ABC, Generic[S, T]):
             self._accept(self._solve(share * length), share * length)
         self.ruptures.append(self.state.time)
         self.state = self.state._replace(ruptured=True)
-        self.kept.append(self.state)
+        self._keep()
         self.length = self.after_rupture * length
 
     @abc.abstractmethod

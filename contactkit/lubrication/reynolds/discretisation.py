@@ -34,6 +34,7 @@ __all__ = [
     "discretise",
     "mesh_of",
     "per_unknown",
+    "untied_mesh",
 ]
 
 Velocity = tuple[float, float]
@@ -94,6 +95,11 @@ def mesh_of(face: Face, gap: Array) -> Mesh:
             known = face.__dict__["_tied"] = (tied, make_mesh(face, tied))
         with_recesses: Mesh = known[1]
         return with_recesses
+    return untied_mesh(face)
+
+
+def untied_mesh(face: Face) -> Mesh:
+    """Unknowns of a face under a gap without deep recesses, one for each cell; made once."""
     if "_mesh" not in face.__dict__:
         face.__dict__["_mesh"] = make_mesh(face)
     made: Mesh = face.__dict__["_mesh"]

@@ -31,6 +31,7 @@ __all__ = [
     "HoleCells",
     "Outline",
     "Pocket",
+    "block_means",
     "distance_of_image",
     "face_from_image",
     "face_from_level",

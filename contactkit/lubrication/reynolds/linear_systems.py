@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import importlib.util
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -20,7 +20,14 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["SOLVERS", "choose_solver", "factorised", "solve_sparse"]
+__all__ = [
+    "SOLVERS",
+    "approximate_factors",
+    "choose_solver",
+    "factorised",
+    "minimum_degree",
+    "solve_sparse",
+]
 
 SOLVERS = ("superlu", "cholmod", "amg")
 LARGE = 60_000
@@ -129,14 +136,93 @@ def factorised(matrix: Any, solver: str, is_symmetric: bool) -> Callable[[Array]
 
         factor = cholesky(csc_matrix(matrix))
         return lambda right: np.asarray(factor(right))
-    from scipy.sparse.linalg import splu
-
     # Columns are diagonally dominant: conductances, and what walls carry from a cell to others. No
     # pivots are needed, and the order of a symmetric pattern fills least.
+    factors = _superlu(matrix.tocsc(), "MMD_AT_PLUS_A")
+    return lambda right: np.asarray(factors.solve(right))
+
+
+def minimum_degree(matrix: Any) -> NDArray[np.int64]:
+    """Order in which the unknowns of a symmetric matrix are best eliminated.
+
+    Examples
+    --------
+    >>> from scipy.sparse import csc_array
+    >>> star = csc_array([[3.0, -1.0, -1.0], [-1.0, 2.0, 0.0], [-1.0, 0.0, 2.0]])
+    >>> sorted(minimum_degree(star).tolist())
+    [0, 1, 2]
+    """
+    return np.argsort(_superlu(matrix.astype(np.float32).tocsc(), "MMD_AT_PLUS_A").perm_c)
+
+
+def approximate_factors(
+    matrix: Any, order: NDArray[np.int64], *, in_double: bool = False
+) -> Callable[[Any], NDArray[np.float64]]:
+    """Factors of a symmetric matrix for a preconditioner: a function of a right-hand side.
+
+    Parameters
+    ----------
+    matrix : sparse array, shape (n, n)
+        Symmetric and positive definite.
+    order : ndarray of int
+        Unknowns to solve for, in the order of their elimination (`minimum_degree`); the others stay
+        zero.
+    in_double : bool
+        Factors in double precision. In single they take 0.4 of the time and their solutions half,
+        on 256 x 256 cells; those are right to some 1e-6, and to less where the gap varies by much.
+
+    Raises
+    ------
+    ConvergenceError
+        If the matrix is singular.
+
+    Examples
+    --------
+    >>> from scipy.sparse import csr_array
+    >>> solve = approximate_factors(csr_array([[4.0, -2.0], [-2.0, 4.0]]), np.array([1, 0]))
+    >>> solve(np.array([2.0, 2.0])).round(6).tolist()
+    [1.0, 1.0]
+    """
+    from scipy.sparse import csr_array
+
+    size = len(order)
+    if not size:
+        return lambda right: np.zeros(len(right))
+    given = matrix.tocsr()
+    place = np.full(given.shape[0], -1)
+    place[order] = np.arange(size)
+    scale = 1.0 / np.sqrt(given.diagonal())
+    rows = np.repeat(place, np.diff(given.indptr))
+    columns = place[given.indices]
+    values = given.data * np.repeat(scale, np.diff(given.indptr)) * scale[given.indices]
+    if size < given.shape[0]:
+        inside = (rows >= 0) & (columns >= 0)
+        rows, columns, values = rows[inside], columns[inside], values[inside]
+    kind: Any = np.float64 if in_double else np.float32
+    # Symmetric: the rows of this matrix are the columns of the other.
+    entries: Any = values.astype(kind)
+    ordered = csr_array((entries, (rows, columns)), shape=(size, size))
+    factors = _superlu(ordered.T, "NATURAL")
+    inner = scale[order]
+
+    def solve(right: Any) -> NDArray[np.float64]:
+        found = np.zeros(len(right))
+        given = inner * right[order]
+        size = float(np.abs(given).max())  # for the range of single precision
+        if size > 0.0:
+            found[order] = inner * size * factors.solve((given / size).astype(kind))
+        return found
+
+    return solve
+
+
+def _superlu(matrix: Any, ordering: Literal["MMD_AT_PLUS_A", "NATURAL"]) -> Any:
+    from scipy.sparse.linalg import splu
+
     try:
-        factors = splu(
-            matrix.tocsc(),
-            permc_spec="MMD_AT_PLUS_A",
+        return splu(
+            matrix,
+            permc_spec=ordering,
             diag_pivot_thresh=0.0,
             relax=8,
             panel_size=1,  # twice as fast as the default here: supernodes are small
@@ -144,7 +230,6 @@ def factorised(matrix: Any, solver: str, is_symmetric: bool) -> Callable[[Array]
         )
     except RuntimeError as error:
         raise ConvergenceError(f"the film has no unique pressure: {error}") from error
-    return lambda right: np.asarray(factors.solve(right))
 
 
 def _multigrid(matrix: Any, right: Array) -> Array:

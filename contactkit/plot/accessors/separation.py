@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from ...separation.deforming.result import DeformingResult
 from ...separation.effects.base import effects_of
 from ...separation.results import SeparationResult
@@ -51,7 +53,8 @@ class DeformingFigures(CurveFigures[DeformingResult]):
     """Figures of a separation of deforming bodies."""
 
     def _hidden(self) -> frozenset[str]:
-        return of_absent_effects(self._owner.plan)
+        absent = of_absent_effects(self._owner.plan)
+        return absent if self._owner.fields else absent | {"regions", "field", "animate"}
 
     def loop(self, *, ax: Axes | None = None) -> Axes:
         """Draw the forces over the gap of the undeformed bodies."""
@@ -62,8 +65,20 @@ class DeformingFigures(CurveFigures[DeformingResult]):
         return deforming.gaps(self._owner, ax)
 
     def sections(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the gap over the radius at five instants."""
+        """Draw the gap over the radius at five instants; of a map over x."""
         return deforming.sections(self._owner, ax)
+
+    def regions(self, time: float | None = None, *, ax: Axes | None = None) -> Axes:
+        """Draw contact, film and void on the map, at a time [s] or where most is to be seen."""
+        return deforming.regions(self._owner, time, ax)
+
+    def field(self, name: str, time: float | None = None, *, ax: Axes | None = None) -> Axes:
+        """Draw a map: "gap", "film_pressure", "solid_pressure" or "liquid"."""
+        return deforming.field(self._owner, name, time, ax)
+
+    def animate(self, path: str | Path, *, rate: int = 8) -> Path:
+        """Write an animation of the map as GIF."""
+        return deforming.animate(self._owner, path, rate=rate)
 
     def energies(self, *, ax: Axes | None = None) -> Axes:
         """Draw the energies over time."""

@@ -1,4 +1,4 @@
-"""Scenes of deforming bodies that the axisymmetric film cannot have, refused by name."""
+"""Scenes of deforming bodies: on rings or on a map, and what neither can have, refused by name."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ...errors import PlanError
+from ...scene.faces import SealedHole
 from ...scene.loading import ImposedForce, ImposedSpeed, PressAndPull
-from ...scene.surfaces import Flat
 from ..effects.base import effects_of
 from ..effects.meniscus import MeniscusForce
 from ..effects.viscous import TensionLimit, ViscousForce
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ...liquids.liquid import LiquidState
     from ...scene.scenes import SeparationScene
 
-__all__ = ["check_deforming"]
+__all__ = ["check_deforming", "is_on_rings"]
 
 _KNOWN = (ElasticBodies, SolidContact, ViscousForce, MeniscusForce, TensionLimit)
 # Cut-off over the initial gap: beyond, the film before the contact is that of the asperities.
@@ -43,30 +43,51 @@ def check_deforming(scene: SeparationScene, liquid: LiquidState) -> None:
         raise PlanError("ElasticBodies cannot act here: " + "; ".join(problems))
 
 
+def is_on_rings(scene: SeparationScene) -> bool:
+    """Whether both bodies are smooth and round, so that their film is axisymmetric."""
+    interface = scene.interface
+    is_round = all(body.surface.curvature is not None for body in interface.bodies)
+    return is_round and interface.has_discs
+
+
 def _of_bodies(scene: SeparationScene) -> Iterator[str]:
     interface = scene.interface
-    for name in ("lower", "upper"):
-        surface = getattr(interface, name).surface
-        if surface.curvature is None:
-            yield (
-                f"interface.{name}.surface is a {type(surface).__name__}, and films between "
-                "deforming bodies are solved on rings; give a Flat, a Sphere or a Paraboloid"
-            )
-            return
-        if isinstance(surface, Flat) and not surface.is_disc:
-            yield (
-                f"interface.{name}.surface is no even disc, and films between deforming bodies are "
-                "solved on rings; give a Flat without planform, recesses, holes and tilt"
-            )
     if not interface.stacks:
         yield (
             "both bodies are rigid; give interface.lower.solid or interface.upper.solid, or leave "
             "ElasticBodies out"
         )
+    if not is_on_rings(scene):
+        yield from _of_maps(scene)
+        return
     if interface.curvature < 0.0:
         yield "the bodies are hollow against each other; give 1/R of both of a positive sum"
     if interface.curvature == 0.0 and math.isinf(interface.rim_radius):
         yield "two flats without end; give a radius [m] to one of them"
+
+
+def _of_maps(scene: SeparationScene) -> Iterator[str]:
+    interface, meniscus = scene.interface, scene.interface.meniscus
+    if any(isinstance(hole, SealedHole) for face in interface.faces for hole in face.holes):
+        yield (
+            "a SealedHole in a face that deforms is not known; give a Vent, or leave ElasticBodies "
+            "out"
+        )
+    if any(face.roughness is not None for face in interface.faces):
+        yield (
+            "Flat.roughness acts by flow factors, which films between deforming bodies do not "
+            "have; leave it out, or give heights: Flat(relief=...), CombinedSurface"
+        )
+    if meniscus is None or not (meniscus.has_pressure or meniscus.volume is not None):
+        return
+    for name in ("lower", "upper"):
+        surface = getattr(interface, name).surface
+        if surface.curvature is None or not getattr(surface, "is_disc", True):
+            yield (
+                f"interface.{name}.surface is a {type(surface).__name__} with heights or an "
+                "outline, and menisci of a given amount between deforming bodies are solved on "
+                "rings; give a Flat, a Sphere or a Paraboloid, or flood the film"
+            )
 
 
 def _of_effects(scene: SeparationScene) -> Iterator[str]:
@@ -114,7 +135,7 @@ def _of_liquid(scene: SeparationScene, liquid: LiquidState) -> Iterator[str]:
         return
     if meniscus.count > 1:
         yield "interface.meniscus.count exceeds 1: the bodies deform under one meniscus"
-    if interface.is_flat:
+    if interface.is_flat and is_on_rings(scene):
         yield "a meniscus between two flats that deform is not known; give a sphere, or flood it"
     if any(stack.layers for stack in interface.stacks):
         yield (

@@ -23,19 +23,23 @@ _ATOM = 0.2 * nm
 class ElasticBodies(CoupledEffect):
     r"""Bodies that the pressures of film, meniscus and contact deform elastically.
 
-    The film, the deformation of both solids and the motion are solved together, on rings: a sphere,
-    a paraboloid or a round flat against a flat. Half-spaces, layers on a substrate, layers on a
-    rigid base; with a meniscus of given volume or pressure half-spaces alone.
+    The film, the deformation of both solids and the motion are solved together: on rings if both
+    bodies are smooth and round, a sphere, a paraboloid or a flat disc against a flat, and else on a
+    map, of faces of any outline with rough or measured surfaces. Half-spaces, layers on a
+    substrate, layers on a rigid base. A meniscus of given volume or pressure takes rings and
+    half-spaces.
 
     Notes
     -----
     It matters where :math:`\beta = \eta v R^{3/2}/(E^* h^{5/2})`, printed with a plan, exceeds
-    about 1e-3; at 1 the largest force of a pull is 0.37 of that of rigid bodies. Forces are right
-    to 1e-4 of their largest, with cavities and contacts 1e-3; a result states its own error.
-    Small strains: pressures up to a tenth of E*.
+    about 1e-3; at 1 the largest force of a pull is 0.37 of that of rigid bodies. On rings forces
+    are right to 1e-4 of their largest, with cavities and contacts 1e-3; on 128 x 128 cells of a map
+    to some 1e-2, by the square of a cell; a result states its own error. Small strains: pressures
+    up to a tenth of E*.
     """
 
     name: ClassVar[str] = "elastic-bodies"
+    takes_grid: ClassVar[bool] = True
     summary: ClassVar[str] = "the bodies deform under the pressure of film, meniscus and contact"
 
     @property

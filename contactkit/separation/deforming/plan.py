@@ -1,4 +1,4 @@
-"""Plan of a separation of deforming bodies: the film on rings, its numbers, and what they mean."""
+"""Plan of a separation of deforming bodies: its film on rings or on a map, and its numbers."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from ...scene.scenes import SeparationScene
 from ...units import quantity_text
 from ..effects.base import SeparationEffect
 from ..effects.viscous import TensionLimit
-from .checks import check_deforming
+from .checks import check_deforming, is_on_rings
 from .effects import SolidContact
 from .numbers import DecidingNumbers, deciding_numbers, hertz_approach, rest_number
 
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...liquids.liquid import LiquidState
+    from .maps.film import MapFilm
 
 __all__ = ["COLUMNS", "DeformingPlan", "characteristic_speed", "plan_deforming"]
 
@@ -77,6 +78,8 @@ _THINNEST = 0.02
 # Elements are in proportion to the fourth root of the error; 48 of a smooth film have 3e-4 of
 # `Accuracy.film_rtol` = 1e-3.
 _ELEMENTS, _ERROR = 48, 1e-3
+# Steps on a map are of second order in the change of a gap.
+_CHANGE, _MOST_CHANGE = 0.1, 0.3
 _FEWEST, _MOST = 24, 192  # that still show the pressure; that still take a minute
 # Numbers above which an effect that is off would change the force by about 1 % (physics of each:
 # first correction of a rigid sphere; tension in half of the strength; film that no rest drains).
@@ -87,13 +90,14 @@ _CONTINUUM = 2e-9  # [m], gap that no smooth film reaches without asperities tha
 
 @frozen(eq=False)
 class DeformingPlan(ScenePlan):
-    """A checked scene of deforming bodies with its film on rings.
+    """A checked scene of deforming bodies with its film: on rings if smooth and round, else a map.
 
-    ``print(plan)`` states the numbers that decide, and effects that are off and should be on.
+    ``print(plan)`` states the engine, the numbers that decide, and effects that are off and should
+    be on.
 
     Attributes
     ----------
-    film : SmoothGap
+    film : SmoothGap or MapFilm
         The film at the start.
     modulus : float
         Contact modulus E* of the topmost materials [Pa].
@@ -110,7 +114,7 @@ class DeformingPlan(ScenePlan):
 
     scene: SeparationScene
     accuracy: Accuracy
-    film: SmoothGap = field(repr=False)
+    film: SmoothGap | MapFilm = field(repr=False)
     modulus: float
     numbers: DecidingNumbers
     laplace_pressure: float
@@ -125,6 +129,11 @@ class DeformingPlan(ScenePlan):
         return 4 * round(min(max(wanted, _FEWEST), _MOST) / 4.0)
 
     @property
+    def change(self) -> float:
+        """Part of itself by which a gap on a map changes in a step."""
+        return min(_CHANGE * math.sqrt(self.accuracy.film_rtol / _ERROR), _MOST_CHANGE)
+
+    @property
     def title(self) -> str:
         """See `ScenePlan.title`."""
         return f"{self.scene.name or 'separation'}: {self.scene.loading.summary}"
@@ -132,7 +141,16 @@ class DeformingPlan(ScenePlan):
     @property
     def engine(self) -> str:
         """Name of the solver."""
-        return "axisymmetric film on deforming bodies"
+        if isinstance(self.film, SmoothGap):
+            return "axisymmetric film on deforming bodies"
+        return "film on a map of deforming bodies"
+
+    @property
+    def rigid_force(self) -> float:
+        """Force of rigid bodies at the start of the pull, from the initial gap [N]."""
+        film = self.film
+        speed = characteristic_speed(self.scene, film)
+        return speed * _rigid_damping(film)
 
     @property
     def rest_number(self) -> float | None:
@@ -153,8 +171,22 @@ class DeformingPlan(ScenePlan):
         return plan_deforming, (self.scene, self.accuracy)
 
 
-def plan_deforming(scene: SeparationScene, accuracy: Accuracy | None = None) -> DeformingPlan:
+def plan_deforming(
+    scene: SeparationScene,
+    accuracy: Accuracy | None = None,
+    heights: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] | None = None,
+) -> DeformingPlan:
     """Check a scene with `ElasticBodies` and prepare its film.
+
+    Parameters
+    ----------
+    scene : SeparationScene
+        The scene.
+    accuracy : Accuracy, optional
+        Settings.
+    heights : tuple of ndarray, optional
+        Cells x and y [m] and the gap of the undeformed bodies on them [m], of a result that was
+        saved: its surfaces are not read again.
 
     Raises
     ------
@@ -171,12 +203,22 @@ def plan_deforming(scene: SeparationScene, accuracy: Accuracy | None = None) -> 
     check_deforming(scene, liquid)
     modulus = _modulus(scene)
     bridge, wetting = _bridge(scene, liquid, modulus)
-    film = _film(scene, liquid, bridge, wetting)
+    accuracy = accuracy or Accuracy.standard
+    film: SmoothGap | MapFilm
+    if is_on_rings(scene):
+        if accuracy.grid is not None:
+            raise PlanError(
+                f"Accuracy.grid = {accuracy.grid!r} is not read: the film of smooth round bodies "
+                "is solved on rings; leave it out"
+            )
+        film = _film(scene, liquid, bridge, wetting)
+    else:
+        film = _on_map(scene, liquid, accuracy, heights)
     suction = 0.0 if bridge is None else bridge.laplace_pressure
     _check_layers(scene, film)
     _check_load(scene, film, modulus)
     _check_rest(scene, film, modulus, 0.0 if bridge is None else bridge.force)
-    if bridge is not None:
+    if bridge is not None and isinstance(film, SmoothGap):
         _check_fold(scene, film, modulus, bridge)
     found = deciding_numbers(
         film.radius,
@@ -186,16 +228,14 @@ def plan_deforming(scene: SeparationScene, accuracy: Accuracy | None = None) -> 
         characteristic_speed(scene, film),
         modulus,
     )
-    if film.wetting is not None and suction > 0.0:
+    if bridge is not None and suction > 0.0 and film.wetting is not None:
         height = film.wetting / suction
         found = found._replace(meniscus=film.wetting * film.rim / (modulus * height**2))
     volume = 0.0 if bridge is None else bridge.volume
-    return DeformingPlan(
-        scene, accuracy or Accuracy.standard, film, modulus, found, suction, volume
-    )
+    return DeformingPlan(scene, accuracy, film, modulus, found, suction, volume)
 
 
-def characteristic_speed(scene: SeparationScene, film: SmoothGap) -> float:
+def characteristic_speed(scene: SeparationScene, film: SmoothGap | MapFilm) -> float:
     """Speed of the pull [m/s]: imposed, or that of rigid bodies at the start under the force."""
     loading = scene.loading
     if isinstance(loading, ImposedSpeed):
@@ -203,11 +243,14 @@ def characteristic_speed(scene: SeparationScene, film: SmoothGap) -> float:
     if isinstance(loading, PressAndPull) and loading.speed is not None:
         return loading.speed
     force = loading.force if isinstance(loading, ImposedForce | PressAndPull) else None
-    width = film.width
+    return float(force or 0.0) / _rigid_damping(film)
+
+
+def _rigid_damping(film: SmoothGap | MapFilm) -> float:
+    """Damping of rigid bodies at the start [N.s/m]; without roughness."""
     # Of a flat 3 pi eta R^4/(2 h^3), of a sphere 6 pi eta R^2/h = 6 pi eta w^4/h^3.
     part = 1.5 if math.isinf(film.radius) else 6.0
-    damping = part * math.pi * film.viscosity * width**4 / film.gap**3
-    return float(force or 0.0) / damping
+    return part * math.pi * film.viscosity * film.width**4 / film.gap**3
 
 
 def _modulus(scene: SeparationScene) -> float:
@@ -215,12 +258,42 @@ def _modulus(scene: SeparationScene) -> float:
     return 1.0 / sum(1.0 / top for top in tops)
 
 
-def _compliance(scene: SeparationScene) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
-    solids = [
+def _solids(scene: SeparationScene) -> list[Layers]:
+    return [
         Layers(stack.young_moduli, stack.poisson_ratios, stack.thicknesses, stack.base)
         for stack in scene.interface.stacks
     ]
+
+
+def _compliance(scene: SeparationScene) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    solids = _solids(scene)
     return lambda nodes: rings.matrix(nodes, *solids)
+
+
+def _on_map(
+    scene: SeparationScene,
+    liquid: LiquidState,
+    accuracy: Accuracy,
+    heights: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] | None,
+) -> MapFilm:
+    """The film at the start on a map, which rings do not import."""
+    from .maps.cells import cells_of, restored_cells
+    from .maps.film import MapFilm, check_initial_gap
+
+    curvature = sum(body.surface.body_curvature for body in scene.interface.bodies)
+    limit, contact = scene.effect(TensionLimit), scene.effect(SolidContact)
+    film = MapFilm(
+        cells_of(scene, accuracy) if heights is None else restored_cells(scene, *heights),
+        1.0 / curvature if curvature > 0.0 else math.inf,
+        scene.loading.initial_gap,
+        liquid.viscosity,
+        tuple(_solids(scene)),
+        cavity=math.inf if limit is None else limit.cavity_drop,
+        strength=0.0 if limit is None else limit.tension,
+        cutoff=0.0 if contact is None else contact.cutoff,
+    )
+    check_initial_gap(film)
+    return film
 
 
 def _film(
@@ -302,7 +375,9 @@ def _bridge(
     return found, wetting
 
 
-def _check_layers(scene: SeparationScene, film: SmoothGap) -> None:
+def _check_layers(scene: SeparationScene, film: SmoothGap | MapFilm) -> None:
+    if not isinstance(film, SmoothGap):  # their displacement is exact for any thickness on a map
+        return
     for name in ("lower", "upper"):
         stack = getattr(scene.interface, name).stack
         thin = min(stack.thicknesses, default=math.inf) if stack is not None else math.inf
@@ -314,7 +389,7 @@ def _check_layers(scene: SeparationScene, film: SmoothGap) -> None:
             )
 
 
-def _check_load(scene: SeparationScene, film: SmoothGap, modulus: float) -> None:
+def _check_load(scene: SeparationScene, film: SmoothGap | MapFilm, modulus: float) -> None:
     """Refuse a load whose contact reaches the rim of a flooded film."""
     loading = scene.loading
     if not isinstance(loading, PressAndPull) or math.isinf(film.radius) or film.wetting is not None:
@@ -328,8 +403,10 @@ def _check_load(scene: SeparationScene, film: SmoothGap, modulus: float) -> None
         )
 
 
-def _check_rest(scene: SeparationScene, film: SmoothGap, modulus: float, attraction: float) -> None:
-    """Refuse a rest after which smooth bodies would touch, without asperities that carry them.
+def _check_rest(
+    scene: SeparationScene, film: SmoothGap | MapFilm, modulus: float, attraction: float
+) -> None:
+    """Refuse a rest after which bodies would touch, without asperities that carry them.
 
     They are pressed by the load and by the attraction of the meniscus at the start [N].
     """
@@ -337,15 +414,17 @@ def _check_rest(scene: SeparationScene, film: SmoothGap, modulus: float, attract
     if not isinstance(loading, PressAndPull) or film.cutoff:
         return
     load = loading.press + attraction
+    thinnest = _CONTINUUM + (0.0 if isinstance(film, SmoothGap) else max(film.peak, 0.0))
     if math.isinf(film.radius):
-        until = 0.75 * math.pi * film.viscosity * film.rim**4 / (load * _CONTINUUM**2)
+        until = 0.75 * math.pi * film.viscosity * film.rim**4 / (load * thinnest**2)
         drained = loading.rest > until
     else:
         args = load, loading.rest, film.radius, modulus, film.viscosity
-        drained = rest_number(*args, _CONTINUUM) > 1.0
+        drained = rest_number(*args, thinnest) > 1.0
     if drained:
+        where = "2 nm" if thinnest == _CONTINUUM else "2 nm at the highest peaks"
         raise PlanError(
-            f"loading.rest = {loading.rest:g} s drains the film to less than 2 nm, and nothing "
+            f"loading.rest = {loading.rest:g} s drains the film to less than {where}, and nothing "
             "carries the bodies there: list SolidContact(cutoff=...), the gap at which their "
             "asperities touch [m]"
         )
@@ -379,6 +458,8 @@ def _check_fold(
 def _notes(plan: DeformingPlan) -> Iterator[str]:
     film, numbers, scene = plan.film, plan.numbers, plan.scene
     yield f"engine: {plan.engine}; E* = {quantity_text(plan.modulus, 'Pa')}"
+    if not isinstance(film, SmoothGap):
+        yield from film.notes(scene.loading.final_gap, plan.change)
     regime = next(
         text
         for least, text in (

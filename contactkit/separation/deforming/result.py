@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from attrs import field, frozen
 
+from ...errors import NotSimulatedError
+from ...lubrication.elastohydrodynamic.motion import SmoothGap
 from ...scene.scales import Scale, Scales, scales_of
 from ...validity import ValidityNumber
 from ..curve_result import CurveResult, Work
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     Curve = NDArray[np.float64]
 
-__all__ = ["SECTIONS", "DeformingResult", "Section"]
+__all__ = ["MAPS", "SECTIONS", "DeformingResult", "Maps", "Section"]
 
 SECTIONS = {
     "radius": "m",
@@ -31,15 +32,36 @@ SECTIONS = {
 """Fields of a section and their units."""
 
 
-class Section(NamedTuple):
-    """Section through the film at a time [s]: arrays over the rings.
+MAPS = {"gap": "m", "film_pressure": "Pa", "solid_pressure": "Pa", "liquid": "-"}
+"""Maps of a film on a map, and their units."""
 
-    Radii and gaps [m], pressures of film and solids over ambient [Pa], part of the gap that is full
-    of liquid [-].
+
+class Section(NamedTuple):
+    """Section through the film at a time [s]: arrays over the rings, of a map along x.
+
+    Radii [m], of a map x from the axis; gaps [m], pressures of film and solids over ambient [Pa],
+    part of the gap that is full of liquid [-].
     """
 
     time: float
     radius: Any
+    gap: Any
+    film_pressure: Any
+    solid_pressure: Any
+    liquid: Any
+
+
+class Maps(NamedTuple):
+    """Maps of a film at a time [s], arrays (ny, nx) over the cells at x and y [m].
+
+    Gap [m], pressures of film and solids over ambient [Pa], part of the gap that is full of liquid
+    [-]; all 0 where `inside` has no film.
+    """
+
+    time: float
+    x: Any
+    y: Any
+    inside: Any
     gap: Any
     film_pressure: Any
     solid_pressure: Any
@@ -61,7 +83,11 @@ class DeformingResult(CurveResult):
     columns : mapping of str to ndarray
         Curves over ``time``, read-only.
     sections : mapping of str to ndarray
-        `SECTIONS` at each time, (n_times, n_rings); `section` gives those of one time.
+        `SECTIONS` at each time, (n_times, n_rings); `section` gives those of one time. Of a map
+        along the row of cells through the axis.
+    fields : mapping of str to ndarray
+        Of a map, `MAPS` at some of the times, (n_maps, ny, nx) in single precision, and these times
+        as ``time``; `maps` gives those of one time. Empty of rings.
     numbers : mapping of str to float
         Numbers of `scalars` by their names; nan for events that did not occur.
     validity : tuple of ValidityNumber
@@ -77,6 +103,7 @@ class DeformingResult(CurveResult):
     message: str
     columns: Mapping[str, Curve] = field(repr=False)
     sections: Mapping[str, Curve] = field(repr=False)
+    fields: Mapping[str, NDArray[Any]] = field(repr=False)
     numbers: Mapping[str, float] = field(repr=False)
     validity: tuple[ValidityNumber, ...] = field(repr=False)
     work: Work
@@ -99,13 +126,36 @@ class DeformingResult(CurveResult):
     @property
     def lines(self) -> str:
         """See `CurveResult.lines`."""
-        return f"points are right to {self.error:.1g} of the largest pull, by three meshes"
+        if not self.fields:
+            return f"points are right to {self.error:.1g} of the largest pull, by three meshes"
+        return (
+            f"points are right to {self.error:.1g} of the largest pull, or gap, by a second run on "
+            "half the cells in each direction and with twice the steps"
+        )
 
     def section(self, time: float) -> Section:
         """Section through the film at the point of the curves next to a time [s]."""
         known = self["time"]
         k = int(abs(known - time).argmin())
         return Section(float(known[k]), *(self.sections[name][k] for name in SECTIONS))
+
+    def maps(self, time: float) -> Maps:
+        """Maps of the film at the kept time next to a time [s].
+
+        Raises
+        ------
+        NotSimulatedError
+            If the film was solved on rings: it has sections.
+        """
+        film = self.plan.film
+        if isinstance(film, SmoothGap):
+            raise NotSimulatedError(
+                "no maps: the film of smooth round bodies is solved on rings; see result.section"
+            )
+        known = self.fields["time"]
+        k = int(abs(known - time).argmin())
+        x, y, inside = film.places
+        return Maps(float(known[k]), x, y, inside, *(self.fields[name][k] for name in MAPS))
 
     def of(self, kind: Any) -> Any:
         """Return the effect of a kind, which shows in the curves; refuse one that is not listed."""
@@ -118,12 +168,11 @@ class DeformingResult(CurveResult):
     @property
     def scales(self) -> Scales:
         """Initial gap, the force of rigid bodies at the start, and the time of the pull."""
-        film, numbers = self.plan.film, self.plan.numbers
-        force = 2.0 * math.pi * numbers.tension * film.width**2
+        film, force = self.plan.film, self.plan.rigid_force
         return scales_of(
             {
                 "m": Scale(film.gap, "h0", "initial gap"),
-                "N": Scale(force, "F0", "force of a rigid sphere at the start, 6 pi eta R^2 v/h0"),
+                "N": Scale(force, "F0", "force of rigid bodies pulled from the initial gap"),
                 "J": Scale(force * film.gap, "F0 h0", "force of rigid bodies times the gap"),
             }
         )
@@ -144,4 +193,6 @@ _UNITS = {
     "force_over_rigid": "-",
     "beta": "-",
     "force_error": "-",
+    "energy_error": "-",
+    "liquid_error": "-",
 }

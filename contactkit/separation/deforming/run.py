@@ -1,24 +1,22 @@
-"""Motion of deforming bodies: the phases of its loading, and its result."""
+"""Motion of deforming bodies, and its result."""
 
 from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable, Mapping
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...errors import ConvergenceError
 from ...frozen import FrozenDict
-from ...lubrication.elastohydrodynamic.drive import Driven, Imposed
-from ...lubrication.elastohydrodynamic.motion import Motion, Phase, Profile, move
+from ...lubrication.elastohydrodynamic.motion import Motion, Profile, SmoothGap, move
 from ...lubrication.elastohydrodynamic.step import StepFailedError
-from ...scene.loading import ImposedForce, ImposedSpeed, PressAndPull
-from ...units import quantity_text
+from ...scene.loading import PressAndPull
 from ...validity import warn
 from ..curve_result import Work
-from .numbers import hertz_approach
+from .outcome import not_followed, outcome, outcome_numbers
+from .phases import phases, pressing_speed
 from .plan import DeformingPlan, characteristic_speed
 from .result import SECTIONS, DeformingResult
 from .validity import ranges
@@ -30,33 +28,45 @@ if TYPE_CHECKING:
 
 __all__ = ["pull_apart"]
 
-_POINTS = 40  # of the curve of an imposed speed, beside those that the steps add
 _SAME_GAP = 1e-9  # over the smallest: rings in contact differ by round-off
-_SHALLOW = 2.0  # times Hertz' approach, within which a pressed pair starts its pull
 
 
-def pull_apart(plan: DeformingPlan) -> DeformingResult:
+def pull_apart(plan: DeformingPlan, fields_at: Sequence[float] = ()) -> DeformingResult:
     """Run the plan.
+
+    Parameters
+    ----------
+    plan : DeformingPlan
+        What to run.
+    fields_at : sequence of float
+        Times [s] at which sections, and maps, are wanted exactly.
 
     Raises
     ------
     ConvergenceError
         If a step cannot be solved: a gap closes where nothing can touch.
+    DescriptionError
+        If a time is not within the motion.
     """
     begun = clock.perf_counter()
     film, loading = plan.film, plan.scene.loading
-    speed = max(characteristic_speed(plan.scene, film), _pressing_speed(plan))
+    parts = phases(plan, fields_at)
+    speed = max(characteristic_speed(plan.scene, film), pressing_speed(plan))
+    if not isinstance(film, SmoothGap):
+        from .maps.run import pull_map_apart  # not of rings
+
+        return pull_map_apart(plan, parts, speed, fields_at)
     try:
-        motion = move(film, _phases(plan), speed=speed, elements=plan.elements)
+        motion = move(film, parts, speed=speed, elements=plan.elements)
     except StepFailedError as error:
-        raise ConvergenceError(
-            f"the film of deforming bodies could not be followed: {error} (units of "
-            f"{film.gap / speed:g} s); where the bodies close, list SolidContact(cutoff=...)"
-        ) from None
+        raise not_followed(error, f"units of {film.gap / speed:g} s") from None
     pulled = motion.end_times[0] if isinstance(loading, PressAndPull) else 0.0
-    columns = _columns(plan, motion)
-    numbers = _numbers(plan, motion, columns, pulled)
-    status, message = _outcome(plan, motion, columns, numbers)
+    columns = _columns(plan, film, motion)
+    numbers = outcome_numbers(plan, motion, columns, pulled) | {
+        "trapped_volume": _trapped(motion.profiles[int(np.abs(columns["time"] - pulled).argmin())]),
+        "force_error": motion.error,
+    }
+    status, message = outcome(columns, numbers)
     sections = {
         name: np.array([getattr(one, name) for one in motion.profiles]) for name in SECTIONS
     }
@@ -73,117 +83,22 @@ def pull_apart(plan: DeformingPlan) -> DeformingResult:
         message,
         FrozenDict(columns),
         FrozenDict(sections),
+        FrozenDict({}),
         FrozenDict(numbers),
         validity,
         work,
     )
 
 
-def _pressing_speed(plan: DeformingPlan) -> float:
-    """Speed of rigid bodies at the start under the load [m/s]; 0 of a loading without one."""
-    loading = plan.scene.loading
-    if not isinstance(loading, PressAndPull):
-        return 0.0
-    film = plan.film
-    return loading.press * film.gap**3 / (6.0 * math.pi * film.viscosity * film.width**4)
-
-
-def _phases(plan: DeformingPlan) -> list[Phase]:
-    loading = plan.scene.loading
-    if isinstance(loading, ImposedSpeed):
-        length = (loading.final_gap - loading.initial_gap) / loading.speed
-        return [Phase(_at_speed(loading.speed), _times(0.0, length))]
-    if isinstance(loading, ImposedForce):
-        return [Phase(_by_force(loading), [loading.time_limit], loading.final_gap)]
-    assert isinstance(loading, PressAndPull)
-    press = Driven(lambda _: -loading.press)
-    pressing = Phase(lambda *_: press, [loading.rest])
-    end = loading.rest + loading.time_limit
-    if loading.force is not None:
-        pull = Driven(lambda _: loading.force or 0.0)
-        return [pressing, Phase(lambda *_: pull, [end], loading.final_gap)]
-    speed, film = loading.speed or 0.0, plan.film
-    sunk = 0.0
-    if math.isfinite(film.radius):
-        sunk = _SHALLOW * hertz_approach(loading.press, film.radius, plan.modulus)
-    length = (loading.final_gap + sunk) / speed
-    times = _times(loading.rest, loading.rest + length)
-    return [pressing, Phase(_at_speed(speed), times, loading.final_gap)]
-
-
-def _times(start: float, end: float) -> list[float]:
-    found: list[float] = np.linspace(start, end, _POINTS + 1)[1:].tolist()
-    return found
-
-
-def _at_speed(speed: float) -> Callable[[float, float], Imposed]:
-    return lambda gap, start: Imposed(lambda time: gap + speed * (time - start))
-
-
-def _by_force(loading: ImposedForce) -> Callable[[float, float], Driven]:
-    def pull(time: float) -> float:
-        if loading.rise_time == 0.0:
-            return loading.force
-        return -loading.force * math.expm1(-time / loading.rise_time)
-
-    driven = Driven(pull, loading.mass or 0.0, loading.stiffness, lambda _: loading.initial_gap)
-    return lambda *_: driven
-
-
-def _columns(plan: DeformingPlan, motion: Motion) -> dict[str, Array]:
+def _columns(plan: DeformingPlan, film: SmoothGap, motion: Motion) -> dict[str, Array]:
     found = dict(motion.columns)
     found["wet_area"] = math.pi * found["rim_radius"] ** 2
-    film = plan.film
     if film.wetting is None:
         found["meniscus_force"] = np.zeros(len(found["time"]))
     else:
         rims = np.array([one.gap[-1] for one in motion.profiles])
         found["meniscus_force"] = found["wet_area"] * film.wetting / rims
     return {name: found[name] for name in plan.columns}
-
-
-def _numbers(
-    plan: DeformingPlan, motion: Motion, columns: Mapping[str, Array], pulled: float
-) -> dict[str, float]:
-    time, pull = columns["time"], columns["pull"]
-    during = time >= pulled
-    force, at = _peak(time[during], pull[during])
-    end = motion.end_times[-1]
-    is_at_end = isinstance(plan.scene.loading, ImposedSpeed)
-    released = motion.is_over or is_at_end
-    work = columns["work"]
-    rigid = 2.0 * math.pi * plan.numbers.tension * plan.film.width**2
-    return {
-        "pull_off_force": force,
-        "pull_off_time": at,
-        "snap_off_time": _snap_off(columns, pulled),
-        "release_time": end if released else math.nan,
-        "smallest_gap": float(columns["smallest_gap"].min()),
-        "work_of_separation": float(work[-1] - work[during][0]),
-        "hysteresis_loss": float(columns["dissipated_energy"][-1]),
-        "largest_contact_force": float(columns["contact_force"].max()),
-        "largest_tension": float(columns["largest_tension"].max()),
-        "trapped_volume": _trapped(motion.profiles[int(np.abs(time - pulled).argmin())]),
-        "rupture_time": motion.rupture_time,
-        "force_over_rigid": force / rigid if rigid > 0.0 else math.nan,
-        "beta": plan.numbers.beta,
-        "force_error": motion.error,
-    }
-
-
-def _peak(time: Array, force: Array) -> tuple[float, float]:
-    """Largest force and its time, on the parabola through the points around it."""
-    k = int(force.argmax())
-    if not 0 < k < len(force) - 1:
-        return float(force[k]), float(time[k])
-    t, f = time[k - 1 : k + 2] - time[k], force[k - 1 : k + 2]
-    curve = np.polynomial.polynomial.polyfit(t, f, 2)
-    at = float(np.clip(-curve[1] / (2.0 * curve[2]), t[0], t[2])) if curve[2] < 0.0 else 0.0
-    peak = float(np.polynomial.polynomial.polyval(at, curve))
-    # Where the film ruptures the force has a corner or a jump there, and no parabola.
-    if peak > 1.02 * float(force[k]):
-        return float(force[k]), float(time[k])
-    return peak, float(time[k]) + at
 
 
 def _trapped(section: Profile) -> float:
@@ -196,30 +111,3 @@ def _trapped(section: Profile) -> float:
     inside = section.liquid[: ring + 1] * gap[: ring + 1] - gap[ring]
     areas = math.pi * np.diff(radius[: ring + 1] ** 2)
     return float(np.maximum(0.5 * (inside[1:] + inside[:-1]), 0.0) @ areas)
-
-
-def _snap_off(columns: Mapping[str, Array], pulled: float) -> float:
-    """When the gap on the axis opens fastest, if faster than the bodies move; else nan."""
-    during = columns["time"] >= pulled
-    time, centre = columns["time"][during], columns["centre_gap"][during]
-    gap = columns["gap"][during]
-    if len(time) < 3:
-        return math.nan
-    steps = np.diff(time)
-    rate, moved = np.diff(centre) / steps, np.diff(gap) / steps
-    k = int((rate - moved).argmax())
-    return 0.5 * float(time[k] + time[k + 1]) if rate[k] > 1.2 * moved[k] else math.nan
-
-
-def _outcome(
-    plan: DeformingPlan, motion: Motion, columns: Mapping[str, Array], numbers: Mapping[str, float]
-) -> tuple[str, str]:
-    force = quantity_text(numbers["pull_off_force"], "N")
-    more = f"; largest pull {force} after {numbers['pull_off_time']:.6g} s"
-    if math.isfinite(numbers["rupture_time"]):
-        more += f"; the film ruptured after {numbers['rupture_time']:.6g} s"
-    if math.isfinite(numbers["release_time"]):
-        return "released", f"released after {numbers['release_time']:.6g} s{more}"
-    limit = float(columns["time"][-1])
-    gap = float(columns["gap"][-1])
-    return "time limit", f"not released within {limit:g} s, gap {gap:g} m{more}"

@@ -177,6 +177,8 @@ class ViscousForce(SeparationForce):
     def cites(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.cites`."""
         flats, sphere = self.sources
+        if any(body.surface.curvature is None for body in scene.interface.bodies):
+            return ("Reynolds 1886: finite volumes",)
         if not scene.interface.has_discs:
             shape = shape_of(scene.interface)
             known = closed_form(shape)

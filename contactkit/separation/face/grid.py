@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ...errors import DescriptionError
 from ...lubrication.reynolds.face import Face, Hole, Pocket, rasterise
-from ...scene.faces import FaceHole, SealedHole
+from ...scene.faces import FaceHole, Recess, SealedHole
+from ...scene.planforms import Planform
 from ...scene.surfaces import Surface, whole_heights
 from ...scene.window import Grid
 from .shape import FaceShape
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.floating[Any]]
 
-__all__ = ["FaceGrid", "gridded"]
+__all__ = ["FaceGrid", "depths", "gridded", "hole_cells", "nearest", "relief_heights"]
 
 # Points across the planform, as many as the finest film has cells: for its nearest place, of which
 # 1/512 of tilt and crown is missed, and for the heights of a relief that is no map.
@@ -52,50 +54,51 @@ def gridded(shape: FaceShape, cells: int) -> FaceGrid:
     DescriptionError
         If a hole or a recess is not resolved, or lies outside the film.
     """
-    holes = [_hole(hole) for hole in shape.holes]
+    holes = [hole_cells(hole) for hole in shape.holes]
     face = rasterise(shape.outline, cells, holes=holes)
     if shape.is_even:
         return FaceGrid(face, np.zeros(face.shape), True)
-    nearest = _smooth(shape, *_points(shape))
-    smooth = _smooth(shape, face.x, face.y) - float(np.nanmin(nearest))
+    smooth = _smooth(shape.tilt, shape.curvature, face.x, face.y)
+    smooth = smooth - nearest(shape.outline, shape.tilt, shape.curvature)
     # Outside the film, where liquid comes from, it may not be nearer than within.
-    relief = np.maximum(smooth, 0.0) + _depths(shape, face)
+    relief = np.maximum(smooth, 0.0) + depths(shape.recesses, face)
     for one in shape.reliefs:
-        relief = relief - _heights(one, shape, face)
+        relief = relief - relief_heights(one, shape.outline, face)
     return FaceGrid(face, relief, False)
 
 
-def _hole(hole: FaceHole) -> Hole | Pocket:
+def hole_cells(hole: FaceHole) -> Hole | Pocket:
+    """A hole of a face for its grid."""
     if isinstance(hole, SealedHole):
         return Pocket(shape=hole.shape, volume=hole.volume)
     return Hole(shape=hole.shape)
 
 
-def _points(shape: FaceShape) -> tuple[Map, Map]:
-    """Points in the film and on its rim; nan outside."""
-    left, right, low, high = shape.outline.bounds
+def nearest(outline: Planform, tilt: tuple[float, float], curvature: float) -> float:
+    """Smallest gap within a planform and on its rim by a tilt and a curvature [m]."""
+    left, right, low, high = outline.bounds
     x, y = np.meshgrid(np.linspace(left, right, _FINE), np.linspace(low, high, _FINE))
-    outside = shape.outline.level(x, y) < -1e-9 * max(right - left, high - low)
-    return np.where(outside, np.nan, x), np.where(outside, np.nan, y)
+    inside = outline.level(x, y) >= -1e-9 * max(right - left, high - low)
+    return float(_smooth(tilt, curvature, x, y)[inside].min())
 
 
-def _smooth(shape: FaceShape, x: Map, y: Map) -> Map:
-    found: Map = shape.tilt[0] * x + shape.tilt[1] * y
-    return found + 0.5 * shape.curvature * (x * x + y * y)
+def _smooth(tilt: tuple[float, float], curvature: float, x: Map, y: Map) -> Map:
+    found: Map = tilt[0] * x + tilt[1] * y
+    return found + 0.5 * curvature * (x * x + y * y)
 
 
-def _heights(relief: Surface, shape: FaceShape, face: Face) -> Map:
+def relief_heights(relief: Surface, outline: Planform, face: Face) -> Map:
     """Heights of a relief at the cells [m], by straight lines between its pixels."""
     from scipy.ndimage import map_coordinates
 
-    grid = _relief_grid(relief, shape)
+    grid = _relief_grid(relief, outline)
     heights = whole_heights(relief, grid, _CURE)
     (dy, dx), (ny, nx) = grid.pixel_size, grid.shape
     places = np.broadcast_arrays(face.y / dy + 0.5 * (ny - 1), face.x / dx + 0.5 * (nx - 1))
     return np.asarray(map_coordinates(heights, places, order=1, mode="nearest"))
 
 
-def _relief_grid(relief: Surface, shape: FaceShape) -> Grid:
+def _relief_grid(relief: Surface, outline: Planform) -> Grid:
     """Grid of a height map; of a recipe one over the face, the same for all grids of the film."""
     if own := relief.own_grids:
         if len(own) > 1:
@@ -103,17 +106,17 @@ def _relief_grid(relief: Surface, shape: FaceShape) -> Grid:
             raise DescriptionError("Flat.relief", sorted(own), expected)
         ((pixels, pixel_size),) = own
         return Grid(pixels, pixel_size, False)
-    left, right, low, high = shape.outline.bounds
+    left, right, low, high = outline.bounds
     width, height = 2.0 * max(abs(left), abs(right)), 2.0 * max(abs(low), abs(high))
     size = max(width, height) / _FINE
     ny, nx = math.ceil(height / size), math.ceil(width / size)
     return Grid((ny, nx), (height / ny, width / nx), False)
 
 
-def _depths(shape: FaceShape, face: Face) -> Map:
+def depths(recesses: Sequence[Recess], face: Face) -> Map:
     """Depth of the recesses [m]; where they overlap, the deepest counts."""
     depth = np.zeros(face.shape)
-    for recess in shape.recesses:
+    for recess in recesses:
         covered = np.broadcast_to(recess.shape.level(face.x, face.y) > 0.0, face.shape)
         if not (covered & face.inside).any():
             raise DescriptionError(

@@ -4,11 +4,13 @@ import math
 from functools import partial
 
 import attrs
+import numpy as np
 import pytest
 from refusals import each_refused
 
 import contactkit as ck
 from contactkit.errors import DescriptionError, InfeasibleError, PlanError
+from contactkit.fmu.native.deforming import exactness_of
 
 pytestmark = pytest.mark.errors
 
@@ -58,12 +60,18 @@ def without(kind):
 test_bodies = each_refused(
     [
         (planned(solid=None), r"both bodies are rigid; give interface\.lower\.solid"),
-        (planned(lower=ck.Wave(amplitude=1e-8, wavelength=1e-5)), "solved on rings; give a Flat"),
+        (
+            planned(lower=ck.Wave(amplitude=1e-8, wavelength=1e-5)),
+            r"the film on a map has no rim: give a Flat\(radius=\.\.\.\) or Flat\(planform",
+        ),
         (
             planned(RIM, meniscus=VOLUME, lower=ck.Wave(amplitude=1e-8, wavelength=1e-5)),
             r"interface\.lower\.surface is a Wave.* solved on rings; give a Flat, a Sphere",
         ),
-        (planned(upper=ck.Flat(radius=1e-4, tilt=(1e-4, 0.0))), "without planform.* and tilt"),
+        (
+            planned(RIM, meniscus=VOLUME, upper=ck.Flat(radius=1e-4, tilt=(1e-4, 0.0))),
+            r"interface\.upper\.surface is a Flat with heights.*; give a Flat, .* flood the film",
+        ),
         (planned(lower=ck.Flat(), upper=ck.Flat()), r"give a radius \[m\]"),
         (
             planned(solid=coated(1e-7)),
@@ -78,6 +86,126 @@ test_bodies = each_refused(
             partial(ck.Material, young_modulus=1e9, poisson_ratio=0.6),
             r"Material\.poisson_ratio must lie above -1 and not above 0\.5",
             DescriptionError,
+        ),
+    ],
+    error=PlanError,
+)
+
+N, SIDE = 16, 8e-4
+PIXEL = SIDE / N
+
+
+def heights(periodic=None, size=PIXEL, holes=None):
+    bumps = 1e-7 * np.cos(np.arange(N) - N // 2)[:, None] * np.ones(N)
+    return ck.Heights(heights=bumps, pixel_size=size, is_periodic=periodic, holes=holes)
+
+
+def rough(surface=None, **given):
+    return {"upper": ck.CombinedSurface(parts=(BALL, surface or heights(**given)))}
+
+
+NOT_MEASURED = np.arange(N * N).reshape(N, N) == N * N // 2 + N // 2
+HALF = ck.Flat(radius=0.4 * SIDE)
+
+test_maps = each_refused(
+    [
+        (
+            planned(**rough(periodic=True), lower=ck.Flat()),
+            r"interface\.upper\.surface repeats beyond its edges \(is_periodic=True\).*no rim.*"
+            r"its mean gap could not change; give a Flat",
+        ),
+        (
+            planned(**rough(), lower=ck.Flat(radius=SIDE)),
+            r"wider than the height map: it reaches from x = -0\.0008 .* give a smaller",
+        ),
+        (
+            planned(**rough(holes=NOT_MEASURED), lower=HALF),
+            r"1 pixels of a height map within the film were not measured.*row 8, column 8: fill",
+        ),
+        (
+            planned(**rough(), lower=HALF, loading=attrs.evolve(PULL, initial_gap=5e-8)),
+            r"loading\.initial_gap = 5e-08 m the gap is closed at x = .* m, y = .* m \(row \d+, "
+            r"column \d+\), where the bodies would overlap by 50 nm: start from more than",
+        ),
+        (
+            planned(
+                ck.SolidContact(cutoff=9e-8),
+                **rough(),
+                lower=HALF,
+                loading=attrs.evolve(PULL, initial_gap=1.85e-7),
+            ),
+            r"the gap is 85 nm at x = .*below SolidContact\.cutoff: start from more than 190 nm",
+        ),
+        (
+            partial(lambda: ck.plan(scene(), ck.Accuracy(grid=64))),
+            r"Accuracy\.grid = 64 is not read: .* solved on rings; leave it out",
+        ),
+        (
+            partial(lambda: ck.plan(scene(**rough(), lower=HALF), ck.Accuracy(grid=20))),
+            r"Accuracy\.grid must be that of the height map, \(16, 16\), or left out, got 20",
+            DescriptionError,
+        ),
+        (
+            planned(lower=ck.Body(surface=heights(size=PIXEL / 2.0), solid=GEL).surface, **rough()),
+            r"have surfaces of one grid.*resample one of the maps",
+            DescriptionError,
+        ),
+        (
+            planned(
+                lower=ck.Flat(
+                    radius=5e-4, holes=(ck.SealedHole(shape=ck.Disc(radius=1e-4), volume=1e-12),)
+                )
+            ),
+            r"a SealedHole in a face that deforms is not known; give a Vent",
+        ),
+        (
+            planned(
+                lower=ck.Flat(
+                    radius=5e-4,
+                    roughness=ck.FineRoughness(
+                        surface=ck.GaussianRoughness(
+                            rms=1e-8, correlation_length=1e-6, cutoff=2e-7
+                        ),
+                        width=1e-5,
+                    ),
+                )
+            ),
+            r"Flat\.roughness acts by flow factors, .*; leave it out, or give heights",
+        ),
+        (
+            planned(**rough(), lower=HALF, loading=attrs.evolve(PRESS, rest=1e6)),
+            r"rest = 1e\+06 s drains the film to less than 2 nm at the highest peaks.*SolidContact",
+        ),
+        (
+            partial(lambda: ck.simulate(ck.plan(scene(**rough(), lower=HALF)), fields_at=(9.0,))),
+            r"simulate\.fields_at must lie within the motion, 0 to 0\.4 s \[s\], got 9\.0",
+            DescriptionError,
+        ),
+        (
+            partial(
+                lambda: ck.simulate(
+                    ck.plan(attrs.evolve(scene(solid=None), effects=(ck.ViscousForce(),))),
+                    fields_at=(0.1,),
+                )
+            ),
+            r"fields_at = \(0\.1,\) is read by plans with ElasticBodies alone: leave it out",
+        ),
+        (
+            partial(lambda: ck.modulus_curve(scene(**rough(), lower=HALF), [1.0])),
+            r"modulus_curve takes smooth round bodies, .* give a Flat without outline",
+        ),
+        (
+            partial(lambda: exactness_of(scene(lower=attrs.evolve(FACE, tilt=(1e-5, 0.0))))),
+            r"no FMU holds ElasticBodies on a face that is no even disc: .* without planform",
+        ),
+        (
+            partial(
+                lambda: ck.plan(
+                    attrs.evolve(scene(solid=None), effects=(ck.ViscousForce(),)),
+                    ck.Accuracy(grid=64),
+                )
+            ),
+            r"Accuracy\.grid = 64 is not read by a SeparationScene",
         ),
     ],
     error=PlanError,

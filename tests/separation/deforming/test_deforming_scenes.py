@@ -167,3 +167,5 @@ def test_columns_of_other_scenes_are_refused(pulled):
         pulled["van_der_waals_force"]
     with pytest.raises(ck.NotSimulatedError, match="solid-contact"):
         pulled.of(ck.SolidContact)
+    with pytest.raises(ck.NotSimulatedError, match=r"no maps: .* on rings; see result\.section"):
+        pulled.maps(0.0)

@@ -36,6 +36,7 @@ Array = NDArray[np.float64]
 _GAMMA = 1.0 - math.sqrt(0.5)
 _GROW, _SHRINK = 2.0, 0.25  # of a step from one to the next, at most
 _TOO_MUCH = 2.0  # change over the one aimed at, with which a step is repeated
+_BEND = 0.5  # with it a rough pull takes 1.4 times the steps, and the force is right to 1e-4
 _SAFETY = 0.9  # of the length that would just meet it
 
 
@@ -46,8 +47,8 @@ class MapControl:
     Parameters
     ----------
     change : float
-        Part of itself by which a gap may change in a step, and part of the smallest gap by which
-        the rigid gap may.
+        Part of itself by which a gap may change in a step; the force may differ from the line
+        through start and first stage by the square of half of it, of its largest so far.
     order : int
         1 or 2.
     strength : float
@@ -65,8 +66,8 @@ class MapControl:
 class MapState(NamedTuple):
     """State at an instant.
 
-    `work` is that of the pull [J], `dissipated` that of the film [J], `inflow` the volume that came
-    in through the rim [m3].
+    `work` is that of the pull [J], `dissipated` that of the film and of jumps [J], `inflow` the
+    volume that came in through the rim [m3].
     """
 
     time: float
@@ -114,6 +115,7 @@ def follow(
     drive: Drive | None = None,
     every_step: bool = False,
     until: float = math.inf,
+    observe: Callable[[MapState], None] | None = None,
 ) -> MapTrack:
     """Follow the motion from the first time to the last.
 
@@ -133,6 +135,8 @@ def follow(
         Whether states are kept after each step, and not at the times alone.
     until : float
         Rigid gap at which the motion ends before the last time [m].
+    observe : callable, optional
+        Called with each state in place of keeping all: the track has the last two.
 
     Raises
     ------
@@ -142,7 +146,7 @@ def follow(
     if drive is not None:
         wet = evolve(wet, drive=drive)
     run = _Run(wet, start, times, control or MapControl())
-    run.every_step, run.until = every_step, until
+    run.every_step, run.until, run.observe = every_step, until, observe
     run.go_through(times[1:])
     return MapTrack(run.kept, run.ruptures, run.counts)
 
@@ -162,6 +166,16 @@ class _Run(Progress[MapState, list[MapStepped]]):
         self.factors: Preconditioner | None = None
         self.before: MapState | None = None  # state a step ago, if nothing has jumped since
         self.counts = Counts()
+        self.observe: Callable[[MapState], None] | None = None
+        # What begins at once, a speed or a force, makes pressures jump, or bodies without mass.
+        self.jumps = True
+        self.highest = abs(wet.thrust(start.fields.total))
+
+    def _keep(self) -> None:
+        super()._keep()
+        if self.observe is not None:
+            self.observe(self.state)
+            del self.kept[:-2]
 
     @property
     def wet(self) -> WetMap:
@@ -175,13 +189,17 @@ class _Run(Progress[MapState, list[MapStepped]]):
         except StepFailedError:
             return self._rejected(_SHRINK * length)
         change = self._change(stages[-1]) / self.control.change
+        if not self.jumps:
+            change = max(change, math.sqrt(self._bend(stages)) / (_BEND * self.control.change))
         if change > _TOO_MUCH:
             return self._rejected(length * max(_SHRINK, _SAFETY / change))
         if self._ruptures(stages):
             self._rupture(length)
             self.before = None
+            self.jumps = True
             return True
         self._accept(stages, length)
+        self.jumps = False
         self.length = max(cut_from, length * min(_GROW, _SAFETY / max(change, 1e-9)))
         return True
 
@@ -196,15 +214,25 @@ class _Run(Progress[MapState, list[MapStepped]]):
     def _change(self, end: MapStepped) -> float:
         """Largest change of a gap over itself."""
         before: MapFields = self.state.fields
-        after = end.fields
-        old, new = before.content, self.wet.gap(after)
+        old, new = before.content, self.wet.gap(end.fields)
         cutoff = self.wet.cutoff
         # Of cells that were in a cavity the content is no gap: there it is left out.
         full = ~(self.state.sets.void | end.sets.void)
         old, new = np.maximum(old[full], cutoff), np.maximum(new[full], cutoff)
-        opened = float(np.abs(np.log(new / old)).max(initial=0.0))
-        least = float(min(old.min(initial=math.inf), new.min(initial=math.inf)))
-        return max(opened, abs(after.rigid_gap - before.rigid_gap) / least)
+        return float(np.abs(np.log(new / old)).max(initial=0.0))
+
+    def _bend(self, stages: list[MapStepped]) -> float:
+        """How far the force leaves the line through start and first stage, over its largest.
+
+        Of one stage the square of its change.
+        """
+        forces = [self.wet.thrust(one.fields.total) for one in stages]
+        start = self.wet.thrust(self.state.fields.total)
+        highest = max(self.highest, abs(start), *map(abs, forces)) or 1.0
+        if len(forces) == 1:
+            return ((forces[0] - start) / highest) ** 2
+        ahead = start + (forces[0] - start) / _GAMMA
+        return abs(forces[-1] - ahead) / highest
 
     def _solve(self, length: float) -> list[MapStepped]:
         state, first = self.state, self.state.fields
@@ -249,20 +277,31 @@ class _Run(Progress[MapState, list[MapStepped]]):
         before, end, wet = self.state, solved[-1], self.wet
         weights = [1.0] if len(solved) == 1 else [1.0 - _GAMMA, _GAMMA]
 
-        def over_step(rate: Callable[[MapStepped], float]) -> float:
-            return length * sum(w * rate(one) for w, one in zip(weights, solved, strict=True))
+        def over_step(rates: list[float]) -> float:
+            return length * sum(w * rate for w, rate in zip(weights, rates, strict=True))
 
         self.before = before
+        self.highest = max(self.highest, abs(wet.thrust(end.fields.total)))
+        power = [wet.power(one.fields.pressure, one.flow) for one in solved]
+        pulls = [-wet.thrust(one.fields.total) * one.fields.speed for one in solved]
+        work, lost = over_step(pulls), over_step([one[0] for one in power])
+        if self.jumps:
+            # What neither film nor bodies keep is lost at once: a force begins, or a film ruptures.
+            lost = work - self._stored(end.fields, end.sets) + self._stored(*before[1:3])
         self.state = MapState(
             before.time + length,
             end.fields,
             end.sets,
             before.ruptured and bool(end.sets.void.any()),
-            before.work + over_step(lambda s: -wet.thrust(s.fields.total) * s.fields.speed),
-            before.dissipated + over_step(lambda s: wet.dissipation(s.fields, s.sets)),
-            before.inflow + over_step(lambda s: wet.inflow(s.fields, s.sets)),
+            before.work + work,
+            before.dissipated + lost,
+            before.inflow + over_step([one[1] for one in power]),
         )
         self.counts = self.counts._replace(steps=self.counts.steps + 1)
+
+    def _stored(self, fields: MapFields, sets: Sets) -> float:
+        """Energy in the bodies, and of cavities against the ambient pressure [J]."""
+        return self.wet.elastic_energy(fields) + self.wet.cavity_energy(fields, sets)
 
 
 def _extrapolated(before: MapFields, after: MapFields, at: float) -> MapFields:

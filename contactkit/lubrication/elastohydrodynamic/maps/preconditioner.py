@@ -14,14 +14,14 @@ iterations, the film alone ten times (rough sphere, beta from 1e-3 to 1e3).
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
 from ....errors import ConvergenceError
-from ...reynolds.linear_systems import choose_solver, factorised
+from ...reynolds.discretisation import assembled
+from ...reynolds.linear_systems import approximate_factors, minimum_degree
 from ..drive import Driven
 from ..wet_gap import Sets
 from .wet_map import Flow, WetMap
@@ -40,8 +40,18 @@ class LocalCompliance:
     """Compliance of the bodies at the wavenumber at which a film is as stiff as they are."""
 
     wet: WetMap
+    order: NDArray[np.int64] = field(init=False)
+    """Order in which the cells are eliminated."""
     _log_ratio: Array = field(init=False)
     _compliance: Array = field(init=False)
+
+    @order.default
+    def _order(self) -> NDArray[np.int64]:
+        known, mesh = self.wet.face.__dict__, self.wet.mesh
+        if "_order" not in known:  # of all phases of a motion
+            inner, outer = mesh.sides.geometry, mesh.rim.geometry
+            known["_order"] = minimum_degree(assembled(mesh, [inner, inner, -inner, -inner, outer]))
+        return np.asarray(known["_order"])
 
     def __attrs_post_init__(self) -> None:
         (ny, nx), (dy, dx) = self.wet.face.shape, self.wet.face.pixel_size
@@ -80,8 +90,7 @@ class Preconditioner:
     gap if a force is imposed; rows are in [m].
     """
 
-    solve: Callable[[Any], Any]
-    full: NDArray[np.bool_]
+    solve: Callable[[Array], Array]
     sets: Sets
     length: float
     weight: Array
@@ -89,10 +98,11 @@ class Preconditioner:
     rigid: Array
     pressed: float
     motion: float
+    in_double: bool
 
     def __call__(self, rows: Array) -> Array:
         """Changes of the unknowns that nearly cancel some rows."""
-        n, k = len(self.full), int(self.sets.contact.sum())
+        n, k = len(self.weight), int(self.sets.contact.sum())
         found = np.empty_like(rows)
         found[:n] = self._film(rows[:n])
         found[n : n + k] = rows[n : n + k] / self.of_cell
@@ -107,15 +117,20 @@ class Preconditioner:
         return found
 
     def _film(self, rows: Array) -> Array:
-        found = rows.copy()
-        found[self.full] = self.solve((self.weight * rows)[self.full])
-        return found
+        return np.where(self.sets.void, rows, self.solve(self.weight * rows))
 
 
 def preconditioner(
-    wet: WetMap, local: LocalCompliance, flow: Flow, gap: Array, sets: Sets, length: float
+    wet: WetMap,
+    local: LocalCompliance,
+    flow: Flow,
+    gap: Array,
+    sets: Sets,
+    length: float,
+    *,
+    in_double: bool = False,
 ) -> Preconditioner:
-    """Factorise the film of a gap for a step of a length.
+    """Factorise the film of a gap for a step of a length, in single precision or in double.
 
     Raises
     ------
@@ -129,28 +144,21 @@ def preconditioner(
     full, alone = ~sets.void, ~sets.contact
     weight = wet.storage / length
     springs = np.where(alone, weight * local.at(gap, length), 0.0)
-    rows = np.flatnonzero(full)
-    matrix = (flow.matrix + diags_array(springs)).tocsr()
-    if len(rows) < len(full):
-        matrix = matrix[rows][:, rows]
-    solve = factorised(matrix, _direct(len(rows)), is_symmetric=True) if len(rows) else np.copy
-    rigid, pressed = np.zeros(len(full)), 0.0
-    motion = 0.0
+    kept = local.order[full[local.order]]
+    solve = approximate_factors(flow.matrix + diags_array(springs), kept, in_double=in_double)
+    rigid: Array = np.zeros(len(full))
+    pressed = motion = 0.0
     if isinstance(wet.drive, Driven):
-        rigid[rows] = solve((weight * alone)[rows])
+        rigid = solve(weight * alone)
         if sets.contact.any():
             pressed = 1.0 / local.of_face
         force = float(rigid[alone].sum()) + int(sets.contact.sum()) * pressed
         motion = wet.cell_area / (inertia(wet.drive, length) + wet.cell_area * force)
-    return Preconditioner(solve, full, sets, length, weight, local.of_cell, rigid, pressed, motion)
+    return Preconditioner(
+        solve, sets, length, weight, local.of_cell, rigid, pressed, motion, in_double
+    )
 
 
 def inertia(drive: Driven, length: float) -> float:
     """Force per change of the rigid gap in a step, of a mass and a spring [N/m]."""
     return drive.mass / length**2 + drive.stiffness
-
-
-def _direct(size: int) -> str:
-    """Solver that has factors."""
-    chosen = choose_solver(None, size)
-    return "superlu" if chosen == "amg" else chosen

@@ -33,12 +33,21 @@ _SOLVED = 1e-8  # rows, over the gap that the step changes or a tenth of the sma
 _LEAST = 0.1  # of the smallest gap
 # Round-off: rows this small that an iteration does not halve are solved.
 _STALLED = 1e-5
-_MOST = 30  # Newton iterations; 3 to 4 are usual, 7 the most where many cells change sets
+_MOST = 60  # Newton iterations; 3 to 4 are usual, 7 the most where many cells change sets
+# Iterations that change no fewer cells than before, after which one cell changes sets at a time,
+# that of the lowest number: a few contacts at the edge of a cavity may otherwise open and close in
+# turn without end (Murty's rule, which ends for matrices of positive principal minors).
+_TOGETHER = 8
+_DIVERGED = 1e3  # rows of an iterate whose sets are given up
+# Rows at which they then do not: where a force is reversed all that touched has the cut-off but for
+# what the rows leave.
+_SLACK = 10.0
 # Of a linear system: three iterations reach 1e-8; 1e-2 takes four, 1e-5 saves none.
 _LINEAR = 1e-3
 _MOST_LINEAR = 120
 # Iterations beyond which new factors pay: with new ones 3 to 18 are usual.
 _STALE = 12
+_POOR = 30  # iterations beyond which factors in single precision are given up
 _REUSED = 1.5  # ratio of the lengths of two steps up to which factors are kept
 # A gap may shrink to this part of itself in an iteration, where nothing can touch.
 _LEAST_GAP = 0.1
@@ -53,10 +62,11 @@ class Work(NamedTuple):
 
 
 class MapStepped(NamedTuple):
-    """End of a stage, and what it took; `kept` are factors for the next."""
+    """End of a stage, its film, and what it took; `kept` are factors for the next."""
 
     fields: MapFields
     sets: Sets
+    flow: Flow
     work: Work
     kept: Preconditioner
 
@@ -99,7 +109,7 @@ def step(
     newton.solve()
     work = Work(len(newton.linear), tuple(newton.linear), newton.n_factorisations)
     assert newton.kept is not None
-    return MapStepped(newton.ended(), newton.sets, work, newton.kept)
+    return MapStepped(newton.ended(), newton.sets, newton.flow, work, newton.kept)
 
 
 class _Newton:
@@ -124,6 +134,7 @@ class _Newton:
         self.kept: Preconditioner | None = None
         self.linear: list[int] = []
         self.n_factorisations = 0
+        self.slack = 0.0
         self.storing = length / wet.storage
         self._settle()
 
@@ -145,17 +156,39 @@ class _Newton:
     def solve(self) -> None:
         before = np.inf
         moved = abs(self.rigid_gap - self.start.rigid_gap)
+        is_solved, first, last_together, fewest = False, self._iterate, _TOGETHER, np.inf
         for count in range(_MOST):
-            changed = count > 0 and self._update_sets()
+            together = count <= last_together
+            changed = 0
+            if count > 0 and (together or is_solved):
+                changed = self._update_sets(together)
+            if together and 0 < changed < fewest:
+                fewest, last_together = changed, count + _TOGETHER
             least = max(self.wet.cutoff, float(self.held.min()))
             rows = self._rows()
-            size = float(np.abs(rows).max()) / max(moved, _LEAST * least)
+            scale = max(moved, _LEAST * least)
+            size, self.slack = float(np.abs(rows).max()) / scale, _SLACK * _SOLVED * scale
             is_solved = size < _SOLVED or (size < _STALLED and size > 0.5 * before)
-            if count > 0 and not changed and is_solved and self.kept is not None:
+            settled = not changed and (together or not self._violated(self.slack)[1])
+            if count > 0 and settled and is_solved and self.kept is not None:
                 return
+            if self.moves and together and count > 1 and size > _DIVERGED:
+                # Sets that changed too many cells at once: from the start again, one at a time.
+                self._iterate, last_together, before = first, count, np.inf
+                self._settle()
+                continue
             before = np.inf if changed else size
             self._correct(rows)
         raise StepFailedError(f"not converged: rows of {size:.1e}")
+
+    @property
+    def _iterate(self) -> tuple[Array, Array, float, Sets]:
+        """Unknowns and sets of now."""
+        return self.pressure, self.total, self.rigid_gap, self.sets
+
+    @_iterate.setter
+    def _iterate(self, given: tuple[Array, Array, float, Sets]) -> None:
+        self.pressure, self.total, self.rigid_gap, self.sets = given
 
     def _rows(self) -> Array:
         film = np.where(self.sets.void, 0.0, self.held - self.stored)
@@ -182,9 +215,16 @@ class _Newton:
             ratio = max(kept.length, self.length) / min(kept.length, self.length)
             if same and ratio < _REUSED and (not self.linear or self.linear[-1] <= _STALE):
                 return kept
+        is_poor = bool(self.linear) and self.linear[-1] > _POOR
         try:
             self.kept = preconditioner(
-                self.wet, self.local, self.flow, self.height, self.sets, self.length
+                self.wet,
+                self.local,
+                self.flow,
+                self.height,
+                self.sets,
+                self.length,
+                in_double=is_poor or (kept is not None and kept.in_double),
             )
         except ConvergenceError as error:
             raise StepFailedError(str(error)) from error
@@ -239,20 +279,35 @@ class _Newton:
         slopes = self.wet.flow_slopes(self.flow, self.height, self.pressure)
         return _Product(self, slopes, inverse)
 
-    def _update_sets(self) -> bool:
-        """Change the sets where their conditions fail; whether one did."""
+    def _violated(self, slack: float = 0.0) -> tuple[Sets, list[int]]:
+        """Sets that the fields ask for, and the cells that are in others by more than a slack [m].
+
+        The slack of pressures is that which moves one cell by as much.
+        """
         wet, sets = self.wet, self.sets
         void, contact = sets
+        less = slack / self.local.of_cell if slack else 0.0
         if wet.floor > -np.inf:
-            void = np.where(sets.void, self.stored < self.held, self.pressure < wet.floor)
+            is_full = self.stored >= self.held + slack
+            void = np.where(sets.void, ~is_full, self.pressure < wet.floor - less)
         if wet.cutoff:
-            pressed = self.total > self.pressure
-            contact = np.where(sets.contact, pressed, self.gap < wet.cutoff)
-        if np.array_equal(void, sets.void) and np.array_equal(contact, sets.contact):
-            return False
-        self.sets = Sets(void, contact)
+            is_pressed = self.total > self.pressure - less
+            contact = np.where(sets.contact, is_pressed, self.gap < wet.cutoff - slack)
+        differ = (void != sets.void) | (contact != sets.contact)
+        return Sets(void, contact), np.flatnonzero(differ).tolist()
+
+    def _update_sets(self, together: bool) -> int:
+        """Change the sets where their conditions fail, or in one cell alone; how many did."""
+        new, cells = self._violated(0.0 if together else self.slack)
+        if not cells:
+            return 0
+        if not together:
+            void, contact = self.sets.void.copy(), self.sets.contact.copy()
+            void[cells[0]], contact[cells[0]] = new.void[cells[0]], new.contact[cells[0]]
+            new = Sets(void, contact)
+        self.sets = new
         self._settle()
-        return True
+        return len(cells)
 
     def ended(self) -> MapFields:
         speed = (self.rigid_gap - self.start.rigid_gap) / self.length
@@ -268,7 +323,7 @@ class _Product:
     def __call__(self, x: Array) -> Array:
         newton, wet = self.newton, self.newton.wet
         pressure, total, moved = newton._changes(x)
-        opened = moved + wet.displacement(total)
+        opened = moved + wet.rough_displacement(total)
         sets = newton.sets
         free = np.where(newton.follows, opened, 0.0)
         out = newton.flow.matrix @ pressure + self.slopes @ free

@@ -17,6 +17,7 @@ stores liquid up to halfway to the rim, which makes the scheme second order.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -24,9 +25,9 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from ....errors import DescriptionError
-from ...reynolds.discretisation import assembled, conductances
+from ...reynolds.discretisation import assembled, conductances, untied_mesh
 from ...reynolds.face import Face
-from ...reynolds.mesh import Mesh, make_mesh
+from ...reynolds.mesh import Mesh
 from ..drive import Drive
 from ..wet_gap import Sets
 
@@ -39,7 +40,10 @@ class Deformation(Protocol):
     """Elastic bodies, such as `contactkit.elasticity.isolated_map.IsolatedMap`."""
 
     def displacement(self, pressure: Array) -> Array:
-        """Displacement [m] by a map of pressures [Pa]."""
+        """Displacement [m] by a map of pressures [Pa], of the cells that hold film."""
+
+    def rough_displacement(self, pressure: Array) -> Array:
+        """Displacement right to some 1e-6 of its largest, for corrections."""
 
     def at_wavenumber(self, wavenumber: Array) -> Array:
         """Displacement per pressure [m/Pa] of waves [1/m]."""
@@ -51,6 +55,8 @@ class Rigid:
     def displacement(self, pressure: Array) -> Array:
         """Zero."""
         return np.zeros_like(pressure)
+
+    rough_displacement = displacement
 
     def at_wavenumber(self, wavenumber: Array) -> Array:
         """Zero."""
@@ -69,6 +75,13 @@ class MapFields(NamedTuple):
     total: Array
     rigid_gap: float
     speed: float
+
+
+class Window(NamedTuple):
+    """Smallest map that holds all cells of film, and the place (flat) of each in it."""
+
+    shape: tuple[int, int]
+    place: NDArray[np.int64]
 
 
 class Flow(NamedTuple):
@@ -121,6 +134,7 @@ class WetMap:
     cutoff: float = 0.0
     mesh: Mesh = field(init=False, repr=False)
     storage: Array = field(init=False, repr=False)
+    window: Window = field(init=False, repr=False)
 
     @mesh.default
     def _mesh(self) -> Mesh:
@@ -129,7 +143,15 @@ class WetMap:
             raise DescriptionError(
                 "WetMap.face", f"{len(self.face.pockets)} pockets", "have none", hint=cure
             )
-        return make_mesh(self.face)
+        return untied_mesh(self.face)
+
+    @window.default
+    def _window(self) -> Window:
+        """Rows and columns that hold film: no others have a pressure."""
+        rows, columns = np.divmod(self.mesh.loaded, self.face.shape[1])
+        rows, columns = rows - rows.min(), columns - columns.min()
+        shape = int(rows.max()) + 1, int(columns.max()) + 1
+        return Window(shape, np.asarray(rows * shape[1] + columns))
 
     @storage.default
     def _storage(self) -> Array:
@@ -156,7 +178,17 @@ class WetMap:
 
     def displacement(self, total: Array) -> Array:
         """Displacement of both bodies [m], shape (n,)."""
-        return self.of_map(self.deformation.displacement(self.on_map(total)))
+        return self._by(self.deformation.displacement, total)
+
+    def rough_displacement(self, total: Array) -> Array:
+        """Displacement right to some 1e-6 of its largest [m], shape (n,)."""
+        return self._by(self.deformation.rough_displacement, total)
+
+    def _by(self, deform: Callable[[Array], Array], total: Array) -> Array:
+        shape, place = self.window
+        pressure = np.zeros(shape)
+        pressure.ravel()[place] = total
+        return deform(pressure).ravel()[place]
 
     def gap(self, now: MapFields) -> Array:
         """Gap of the deformed bodies [m], shape (n,)."""
@@ -173,6 +205,13 @@ class WetMap:
     def elastic_energy(self, now: MapFields) -> float:
         """Energy stored in the bodies [J]."""
         return 0.5 * self.thrust(now.total * self.displacement(now.total))
+
+    def cavity_energy(self, now: MapFields, sets: Sets) -> float:
+        """Work of opening the cavities against the ambient pressure [J]."""
+        if not sets.void.any():
+            return 0.0
+        held = np.where(sets.contact, self.cutoff, self.gap(now))
+        return -self.floor * self.volume(np.where(sets.void, held - now.content, 0.0))
 
     def conducting(self, gap: Array, sets: Sets) -> tuple[Array, NDArray[np.bool_]]:
         """Gap that conducts liquid [m], and where it follows that of the bodies."""
@@ -206,21 +245,14 @@ class WetMap:
         values = [by_low * drop, -by_high * drop, by_high * drop, -by_low * drop, rim]
         return assembled(mesh, values)
 
-    def dissipation(self, now: MapFields, sets: Sets) -> float:
-        """Power that the film dissipates [W]."""
+    def power(self, pressure: Array, flow: Flow) -> tuple[float, float]:
+        """Power that the film dissipates [W], and flow of liquid in through the rim [m3/s]."""
         mesh = self.mesh
-        flow = self.flow(self.conducting(self.gap(now), sets)[0])
-        p = now.pressure
-        drop = p[mesh.number[mesh.sides.low]] - p[mesh.number[mesh.sides.high]]
-        at_rim = p[mesh.number[mesh.rim.cell]] - self._rim_pressure()
-        return float(flow.inner @ drop**2 + flow.outer @ at_rim**2)
-
-    def inflow(self, now: MapFields, sets: Sets) -> float:
-        """Flow of liquid in through the rim [m3/s]."""
-        mesh = self.mesh
-        flow = self.flow(self.conducting(self.gap(now), sets)[0])
-        at_rim = now.pressure[mesh.number[mesh.rim.cell]]
-        return float(flow.outer @ (self._rim_pressure() - at_rim))
+        low, high = mesh.number[mesh.sides.low], mesh.number[mesh.sides.high]
+        drop = pressure[low] - pressure[high]
+        at_rim = self._rim_pressure() - pressure[mesh.number[mesh.rim.cell]]
+        dissipated = float(flow.inner @ drop**2 + flow.outer @ at_rim**2)
+        return dissipated, float(flow.outer @ at_rim)
 
     def _rim_pressure(self) -> Array:
         return np.asarray(self.face.pressure.ravel()[self.mesh.rim.beyond], float)
