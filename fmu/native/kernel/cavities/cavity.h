@@ -111,7 +111,7 @@ void ck_disc_beyond_event(const ck_cavity_law *law, const ck_cavity *cavity, con
 void ck_disc_cavity_step(ck_cavity *cavity, const ck_hollow *solved, double begin_gap,
                          const double gaps[3]);
 void ck_disc_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at);
-void ck_disc_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at);
+void ck_disc_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at, int begins);
 
 /* A step of some length, tried: keeps it and gives by how much it ends beyond an event; 0 if there is
    no such step, and the one before is kept. */

@@ -107,13 +107,13 @@ void ck_disc_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place 
     }
 }
 
-/* Cavity after the speed has jumped. */
-void ck_disc_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
+/* Cavity after the speed has jumped; begins: whether the full film cavitates at that speed. */
+void ck_disc_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at, int begins) {
     double ignored, rim, fraction, here;
     int recedes = cavity->phase == CK_RECEDING;
     ck_rupture_piece jump;
     if (cavity->phase == CK_FULL) {
-        if (ck_is_inception(law, cavity, at)) inception(law, cavity, at);
+        if (begins) inception(law, cavity, at);
         return;
     }
     rim = ck_disc_rim(law, at.gap, cavity->hollow, &ignored);

@@ -166,6 +166,7 @@ void ck_cavity_event(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
 }
 
 void ck_cavity_jump(const ck_cavity_law *law, ck_cavity *cavity, ck_place at) {
-    if (!law->grid) ck_disc_cavity_jump(law, cavity, at);
-    else if (ck_is_inception(law, cavity, at)) grid_inception(law, cavity, at.gap);
+    int begins = ck_is_inception(law, cavity, at);
+    if (!law->grid) ck_disc_cavity_jump(law, cavity, at, begins);
+    else if (begins) grid_inception(law, cavity, at.gap);
 }
