@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, ClassVar
 from attrs import field, frozen
 
 from ...capillary.wetting.cox_voinov import dynamic_angle
-from ...errors import InfeasibleError
+from ...errors import DescriptionError, InfeasibleError
 from ...numerics.cubic_spline import cubic_spline
 from ...numerics.roots import bracketed_root
 from ...scene.column import Column
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 __all__ = ["CoxVoinovAngle", "capillary_number"]
 
 _FAST, _FASTEST = 0.1, 1.0  # |Ca| of the line: range of Cox' expansion in small Ca; refused beyond
+_JUST_BELOW = 1.0 - 1e-9  # of the smallest gap of a motion
 _MOST_SPEEDS = 64  # whose curves are kept, each of _POINTS bridges
 _POINTS = 161  # bridges of a curve: right to 1e-6 of what the angles change
 
@@ -143,6 +144,9 @@ class CoxVoinovAngle(MovingAngle):
         def force(gap: float, speed: float) -> float:
             if speed == 0.0:
                 return at_rest.force(gap, 0.0)
+            if gap < lines.axis.first * _JUST_BELOW:
+                expected = f"be {lines.axis.first:g}, the smallest of the motion, or more"
+                raise DescriptionError("gap", gap, expected, unit="m")
             more, end = added(speed)
             return at_rest.force(min(gap, end), 0.0) + more(gap)
 

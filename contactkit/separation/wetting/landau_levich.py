@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from attrs import field, frozen
 
 from ...capillary.wetting.landau_levich import THICKNESS_LAWS, film_fraction
 from ...errors import InfeasibleError
-from ...numerics.cubic_spline import cubic_spline
 from ...scene.column import Column
 from ...scene.loading import ImposedSpeed
 from ...validators import choice
 from ...validity import ValidityNumber
-from ..effects.base import Angles, MovingAngle, RunCurves, VolumeLoss, effects_of
+from ..effects.base import MovingAngle, RunCurves, VolumeLoss, effects_of
 from ..effects.prepared import with_fraction
 from .cox_voinov import capillary_number
-from .line import Line, Lines, line_needs
+from .line import LEAST_LEFT, Line, Lines, line_needs
 from .losing_film import lagrange, volume_nodes
 
 if TYPE_CHECKING:
@@ -39,12 +39,11 @@ _RANGES: Mapping[str, tuple[float, float]] = {
     "aussillous-quere": (0.1, 1.0),
     "landau-levich": (5e-3, 0.1),
 }
-_RTOL = 1e-7  # of the volume; the lines are known to 1e-5
-_POINTS = 101  # of the volume over the gap: right to 1e-6 of what is lost
+_RTOL = 1e-6  # of the volume; the lines are known to 1e-5
+_KEPT = 4096  # gaps whose volume is kept: every law of the film asks for it
 _ITERATIONS = 60  # of the speed of the lines, which their own loss raises; 4 to 20 are taken
 _SAME = 1e-12  # of what is lost, at which that is known
 _STEP = 1e-4  # of the volume, for the slope of a radius over it: right to 1e-4
-_LEAST = 0.3  # of the volume: of five volumes from there on lines are right to 1e-4
 
 
 @frozen(kw_only=True)
@@ -122,7 +121,6 @@ class LandauLevichFilm(VolumeLoss):
 
     def volume_fraction(self, prepared: Prepared) -> Callable[[float], float]:
         """See `VolumeLoss.volume_fraction`."""
-        import numpy as np
         from scipy.integrate import solve_ivp
 
         loading = prepared.scene.loading
@@ -134,17 +132,21 @@ class LandauLevichFilm(VolumeLoss):
             return lambda gap: 1.0
 
         def slope(gap: float, left: NDArray[np.float64]) -> list[float]:
-            return [rate(gap, max(float(left[0]), _LEAST)) / whole]
+            return [rate(gap, max(float(left[0]), LEAST_LEFT)) / whole]
 
         solved = solve_ivp(slope, (first, last), [1.0], rtol=_RTOL, atol=_RTOL, dense_output=True)
-        if solved.y[0, -1] <= _LEAST:
+        if solved.y[0, -1] <= LEAST_LEFT:
             raise InfeasibleError(
-                f"LandauLevichFilm: of the liquid less than {_LEAST:.0%} is left at a gap of "
+                f"LandauLevichFilm: of the liquid less than {LEAST_LEFT:.0%} is left at a gap of "
                 f"{last:g} m and {loading.speed:g} m/s; give a smaller loading.final_gap"
             )
-        gaps = np.linspace(first, last, _POINTS)
-        fine = cubic_spline(gaps.tolist(), solved.sol(gaps)[0].tolist())
-        return lambda gap: fine(min(max(gap, first), last))[0]
+        dense = solved.sol
+
+        @lru_cache(maxsize=_KEPT)
+        def fraction(gap: float) -> float:
+            return float(dense(min(max(gap, first), last))[0])
+
+        return fraction
 
     def late_curves(self, run: RunCurves) -> Mapping[str, Curve]:
         """See `SeparationEffect.late_curves`: as left when the film broke, from there on."""
@@ -182,14 +184,12 @@ class _Rate:
 
     def __init__(self, effect: LandauLevichFilm, prepared: Prepared, speed: float) -> None:
         self._law, self._prepared, self._speed = effect.law, prepared, speed
-        least = prepared.scene.loading.initial_gap * math.cbrt(_LEAST)
-        self._nodes = volume_nodes(_LEAST)
+        self._nodes = volume_nodes(LEAST_LEFT)
         scenes = [with_fraction(prepared, node) for node in self._nodes]
-        self._lines = [Lines(one, least) for one in scenes]
+        self._lines = [Lines(one) for one in scenes]
         moving = next((e for e in effects_of(prepared.scene) if isinstance(e, MovingAngle)), None)
-        self._angles: list[Angles] | None = None
-        if moving is not None:
-            self._angles = [moving.prepare_angles(one) for one in scenes]
+        # Of the whole volume, at the same gap over its end: lines of similar bridges are as fast.
+        self._angles = None if moving is None else moving.prepare_angles(prepared)
 
     def end(self, part: float) -> float:
         """Gap at which the bridge of a part of the volume ends [m]."""
@@ -222,8 +222,7 @@ class _Rate:
             lines.append(Line(radius, speed, curvature))
         if self._angles is None:
             return lines, self._prepared.angles
-        nearest = min(range(len(size)), key=lambda k: abs(self._nodes[k] - part))
-        angles = self._angles[nearest](places[nearest], self._speed)
+        angles = self._angles(places[0], self._speed)
         # The lines are those of the angles at rest: what the moved ones add to the curvature is
         # that of a thin film.
         height = with_fraction(self._prepared, part).film.height(gap)

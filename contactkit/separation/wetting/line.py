@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ...numerics.cubic_spline import cubic_spline
 from ...scene.loading import ImposedSpeed
+from ..effects.base import VolumeLoss
 from ..effects.meniscus import MeniscusForce
 from ..effects.viscous import keeps_radius
 
@@ -24,9 +25,11 @@ if TYPE_CHECKING:
 
     Curve = Callable[[float], tuple[float, float]]
 
-__all__ = ["BridgeAxis", "Line", "Lines", "line_needs", "rim_needs", "speed_needs"]
+__all__ = ["LEAST_LEFT", "BridgeAxis", "Line", "Lines", "line_needs", "rim_needs", "speed_needs"]
 
 _POINTS = 161  # of a curve: radii and pressure right to 1e-6, their slopes to 1e-5
+LEAST_LEFT = 0.3
+"""Least volume over that of the scene: of five volumes from there on lines are right to 1e-4."""
 _JUST_BELOW = 1.0 - 1e-6  # of the end, at which a bridge has no slope
 # Of the end, from where on the speed of a line stays: in equilibrium it is infinite at the fold,
 # which no line follows.
@@ -87,15 +90,16 @@ class Lines:
 
     @cached_property
     def axis(self) -> BridgeAxis:
-        """Gaps that the bridge spans, from the first one; from 0 if that is not given."""
+        """Gaps that the bridge spans, from the first one of the motion."""
         from ...capillary.exact.stability import stability_limit
 
         film, prepared = self._prepared.film, self._prepared
         end = float(stability_limit(film.volume, *prepared.angles, *prepared.curvatures).gap)
+        first = min(_first_gap(prepared), 0.5 * end)
         if math.isinf(film.sphere_radius):
-            first = min(self._first or prepared.scene.loading.initial_gap, 0.5 * end)
             return BridgeAxis(first, end, 0.0)
-        return BridgeAxis(0.0, end, 0.1 * math.sqrt(film.volume / (math.pi * film.sphere_radius)))
+        thin = 0.1 * math.sqrt(film.volume / (math.pi * film.sphere_radius))
+        return BridgeAxis(first, end, thin)
 
     @cached_property
     def _curves(self) -> tuple[Curve, Curve, Curve]:
@@ -126,6 +130,12 @@ class Lines:
             speed = slope * by_gap / math.cos(tilt)
             found.append(Line(radius, speed, math.sin(angle + tilt) / radius - outside))
         return found[0], found[1]
+
+
+def _first_gap(prepared: PreparedScene[SeparationScene]) -> float:
+    """Smallest gap [m] that is asked for: films of less volume are taken at smaller gaps."""
+    loses = any(isinstance(effect, VolumeLoss) for effect in prepared.scene.effects)
+    return prepared.scene.loading.initial_gap * (math.cbrt(LEAST_LEFT) if loses else 1.0)
 
 
 def speed_needs(scene: SeparationScene) -> tuple[str, ...]:

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
 
 from attrs import evolve
 
 from ...numerics.roots import bracketed_root
-from ..effects.base import SeparationForce
 from ..effects.force_law import ForceLaw
 from ..film import Film
 
 __all__ = ["lagrange", "losing_film", "volume_nodes"]
 
 _NODES = 5  # Chebyshev's points of the volume: 1e-5 of the force where a third is lost
+_KEPT = 4096  # gaps whose weights are kept: every law of the film asks for them
 _NO_LOSS = 1e-12  # of the volume, which no force tells from none
 
 
@@ -56,10 +58,6 @@ class _Volumes(NamedTuple):
     films: tuple[Film, ...]
     fraction: Callable[[float], float]
 
-    def weights(self, part: float) -> list[float]:
-        """Weights of the films at a volume."""
-        return lagrange(self.nodes, part)
-
     @property
     def lengths(self) -> tuple[float, ...]:
         """Length of each film that its gap is over [m or -]: its end, or like the cube root."""
@@ -69,22 +67,30 @@ class _Volumes(NamedTuple):
 
     def end(self, part: float) -> float:
         """Gap at which the film of a volume ends [m]."""
-        return sum(w * film.end for w, film in zip(self.weights(part), self.films, strict=True))
+        weights = lagrange(self.nodes, part)
+        return sum(w * film.end for w, film in zip(weights, self.films, strict=True))
 
-    def law(self, kind: type[SeparationForce]) -> ForceLaw:
-        """Law of a force of the film, at the same gap over its end in each volume."""
-        laws = [film.laws[kind] for film in self.films]
+    def places(self) -> Callable[[float], list[tuple[float, float]]]:
+        """Weight of each film at a gap, and the gap at which it is as far from its end."""
         lengths = self.lengths
 
-        def force(gap: float, speed: float) -> float:
-            weights = self.weights(self.fraction(gap))
-            length = sum(w * one for w, one in zip(weights, lengths, strict=True))
-            return sum(
-                w * law.force(gap * one / length, speed)
-                for w, law, one in zip(weights, laws, lengths, strict=True)
-            )
+        @lru_cache(maxsize=_KEPT)
+        def at(gap: float) -> list[tuple[float, float]]:
+            weights = lagrange(self.nodes, self.fraction(gap))
+            per_length = gap / sum(map(operator.mul, weights, lengths))
+            return [(w, one * per_length) for w, one in zip(weights, lengths, strict=True)]
 
-        return ForceLaw(force, rate=laws[0].rate)
+        return at
+
+
+def _law(laws: Sequence[ForceLaw], at: Callable[[float], list[tuple[float, float]]]) -> ForceLaw:
+    """Law of a force from those of some volumes."""
+
+    def force(gap: float, speed: float) -> float:
+        each = zip(laws, at(gap), strict=True)
+        return sum(weight * law.force(place, speed) for law, (weight, place) in each)
+
+    return ForceLaw(force, rate=laws[0].rate)
 
 
 def losing_film(
@@ -112,7 +118,11 @@ def losing_film(
     if len(films) == 1:
         return evolve(whole, volume_fraction=fraction)
     volumes = _Volumes(volume_nodes(fraction(last_gap)), tuple(films), fraction)
-    laws = {kind: volumes.law(kind) if kind.needs_film else law for kind, law in whole.laws.items()}
+    at = volumes.places()
+    laws = {
+        kind: _law([film.laws[kind] for film in films], at) if kind.needs_film else law
+        for kind, law in whole.laws.items()
+    }
     end = whole.end
     if math.isfinite(end):
         end = volumes.end(fraction(last_gap))
