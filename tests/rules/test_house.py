@@ -36,8 +36,10 @@ from contactkit.separation.effects.base import (
     Effect,
     FilmEnd,
     FilmLimit,
+    MovingAngle,
     SeparationEffect,
     SeparationForce,
+    VolumeLoss,
 )
 from contactkit.separation.sliding.effects import SlidingForce
 
@@ -244,6 +246,8 @@ ROLES = (
     FilmLimit,
     FilmEnd,
     CoupledEffect,
+    MovingAngle,
+    VolumeLoss,
     Compliance,
     PressureBound,
     LoadHistory,

@@ -3,7 +3,7 @@ r"""Thickness of the film that a receding meniscus leaves behind, by Landau, Lev
 .. math:: e = \frac{1.34}{\kappa}\, Ca^{2/3}
 
 with the curvature kappa of the static meridian where it meets the wall, which is the length of the
-problem: sqrt(2) over the capillary length at a plate drawn from a bath (0.94 of that length, as
+problem: sqrt(2) over the capillary length at a plate drawn from a pool (0.94 of that length, as
 Landau and Levich have it), 1/r in a tube (Bretherton), and :math:`(c_1 + c_2)/H` in a bridge of
 the height H at its rim. Floats or arrays.
 """
@@ -43,7 +43,7 @@ def film_fraction(capillary_number: Any, law: ThicknessLaw = "landau-levich") ->
 
     Examples
     --------
-    A plate drawn from a bath, over the capillary length:
+    A plate drawn from a pool, over the capillary length:
 
     >>> round(film_fraction(1e-3) / 2.0**0.5, 5)
     0.00946

@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 _POINTS = 201  # of a meridian: the centroid of a bridge is right to 1e-9 of its height
 _DEGREE = 40  # of the polynomial through centroids, whose slope then is right to 1e-4
-# Gap over that at which the bridge breaks, beyond which the share is held: unless the bodies are
+# Gap over that at which the bridge breaks, beyond which the fraction is held: unless the bodies are
 # equal the first order is infinite at the fold, which the weight itself displaces.
 _LAST = 0.97
 

@@ -193,7 +193,7 @@ def capillary_number(prepared: Prepared, velocity: float) -> float:
 def _added(
     prepared: Prepared, at_rest: ForceLaw, whole: BridgeAxis, angles: Angles, speed: float
 ) -> tuple[Callable[[float], float], float]:
-    """What a speed adds to the force at rest [N], over the gap, and where that ends [m]."""
+    """Return what a speed adds to the force at rest [N], over the gap, and where that ends [m]."""
     from ...capillary.exact.bridge import bridge
 
     film, curvatures = prepared.film, prepared.curvatures

@@ -139,7 +139,7 @@ def _first_gap(prepared: PreparedScene[SeparationScene]) -> float:
 
 
 def speed_needs(scene: SeparationScene) -> tuple[str, ...]:
-    """What an effect lacks that depends on the speed of the line, or on the way it took."""
+    """Return the needs of an effect that depends on the speed of the line, or on its way."""
     loading = scene.loading
     if isinstance(loading, ImposedSpeed) and loading.vibration is None:
         return ()
@@ -150,7 +150,7 @@ def speed_needs(scene: SeparationScene) -> tuple[str, ...]:
 
 
 def rim_needs(scene: SeparationScene) -> tuple[str, ...]:
-    """What an effect lacks that needs a bridge of a given volume with lines free to move."""
+    """Return the needs of an effect of a bridge of a given volume with lines free to move."""
     interface, meniscus, missing = scene.interface, scene.meniscus, tuple[str, ...]()
     if meniscus.volume is None:
         return ("interface.meniscus.volume [m3]: its amount of liquid is that of a bridge",)
@@ -171,7 +171,7 @@ def rim_needs(scene: SeparationScene) -> tuple[str, ...]:
 
 
 def line_needs(scene: SeparationScene) -> tuple[str, ...]:
-    """What an effect of a moving line lacks: its speed, its freedom, and an exact meniscus."""
+    """Return the needs of an effect of a moving line: its speed, freedom, an exact meniscus."""
     meniscus = scene.effect(MeniscusForce)
     is_exact = meniscus is None or meniscus.form == "exact"
     exact = () if is_exact else ('MeniscusForce(profile="exact"): others have no moving line',)

@@ -19,7 +19,7 @@ __all__ = ["lagrange", "losing_film", "volume_nodes"]
 
 _NODES = 5  # Chebyshev's points of the volume: 1e-5 of the force where a third is lost
 _KEPT = 4096  # gaps whose weights are kept: every law of the film asks for them
-_NO_LOSS = 1e-12  # of the volume, which no force tells from none
+_NO_LOSS = 1e-12  # of the volume, which changes no force
 
 
 def volume_nodes(last: float) -> tuple[float, ...]:

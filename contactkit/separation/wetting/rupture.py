@@ -9,6 +9,7 @@ from attrs import field, frozen
 
 from ...errors import InfeasibleError
 from ...scene.loading import ImposedSpeed
+from ...units import si
 from ...validators import non_negative, positive
 from ...validity import ValidityNumber
 from ..effects.base import FilmEnd
@@ -56,8 +57,8 @@ class DynamicRupture(FilmEnd):
         "the exact bridge",
     )
 
-    factor: float = field(default=1.0, validator=non_negative)
-    exponent: float = field(default=0.5, validator=positive)
+    factor: float = field(default=1.0, validator=non_negative, metadata=si("-"))
+    exponent: float = field(default=0.5, validator=positive, metadata=si("-"))
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.liquid_needs`."""

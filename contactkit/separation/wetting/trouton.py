@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 from attrs import field, frozen
 
 from ...scene.column import Column
+from ...units import si
 from ...validators import positive
 from ...validity import ValidityNumber
 from ..effects.base import ForceLaw, SeparationForce
@@ -52,7 +53,7 @@ class TroutonForce(SeparationForce):
         "Trouton 1906; sum with the force of a thin film: Spiegelberg, Ables and McKinley 1996",
     )
 
-    trouton_ratio: float = field(default=3.0, validator=positive)
+    trouton_ratio: float = field(default=3.0, validator=positive, metadata=si("-"))
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.liquid_needs`."""
