@@ -73,7 +73,9 @@ from contactkit.separation.effects.base import (
     Effect,
     FilmEnd,
     FilmLimit,
+    MovingAngle,
     SeparationForce,
+    VolumeLoss,
 )
 from contactkit.separation.sliding.effects import SlidingForce
 
@@ -98,6 +100,8 @@ ROLES: Mapping[type, str] = {
     SeparationForce: "force",
     FilmLimit: "limit",
     FilmEnd: "end of the film",
+    MovingAngle: "contact angle",
+    VolumeLoss: "volume of the film",
     CoupledEffect: "coupled with the film",
     SlidingForce: "force along the bodies",
     Compliance: "compliance",
