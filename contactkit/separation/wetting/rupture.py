@@ -106,4 +106,4 @@ def _speed(prepared: PreparedScene[SeparationScene]) -> float:
 
 def _capillary_number(prepared: PreparedScene[SeparationScene]) -> float:
     liquid = prepared.liquid
-    return liquid.viscosity * _speed(prepared) / liquid.surface_tension
+    return float(liquid.viscosity * _speed(prepared) / liquid.surface_tension)
