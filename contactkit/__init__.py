@@ -118,6 +118,7 @@ if TYPE_CHECKING:
         Disc,
         Ellipse,
         Image,
+        ImageFile,
         Intersection,
         Planform,
         Polygon,
@@ -135,7 +136,7 @@ if TYPE_CHECKING:
         SelfAffineRoughness,
     )
     from .scene.scenes import ContactScene, SeparationScene, SlidingScene
-    from .scene.surfaces import Flat, Paraboloid, Sphere, Wave
+    from .scene.surfaces import FineRoughness, Flat, Paraboloid, Sphere, Wave
     from .scene.window import Window
     from .separation.deforming.effects import ElasticBodies, SolidContact
     from .separation.deforming.plan import DeformingPlan
@@ -197,6 +198,7 @@ _HOMES = {
     "ExponentialAttraction": "contact.effects.attraction_laws",
     "FilmMeniscus": "contact.effects.film",
     "FilmStatus": "separation.effects.base",
+    "FineRoughness": "scene.surfaces",
     "Flat": "scene.surfaces",
     "FrictionCoupling": "contact.effects.friction",
     "FrictionTraction": "contact.effects.friction",
@@ -211,6 +213,7 @@ _HOMES = {
     "HardnessMap": "contact.effects.hardness_rules",
     "Heights": "scene.rough_surfaces",
     "Image": "scene.planforms",
+    "ImageFile": "scene.planforms",
     "ImposedForce": "scene.loading",
     "ImposedSpeed": "scene.loading",
     "ImposedTime": "scene.loading",
@@ -353,6 +356,7 @@ __all__ = [
     "ExponentialAttraction",
     "FilmMeniscus",
     "FilmStatus",
+    "FineRoughness",
     "Flat",
     "FrictionCoupling",
     "FrictionTraction",
@@ -362,6 +366,7 @@ __all__ = [
     "HardnessMap",
     "Heights",
     "Image",
+    "ImageFile",
     "ImposedForce",
     "ImposedSpeed",
     "ImposedTime",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from importlib import import_module
+from sys import modules
 from typing import Any
 
 __all__ = ["ABOVE", "above", "lazy_names", "named"]
@@ -61,7 +62,10 @@ def lazy_names(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
 
     def attribute(name: str) -> Any:
         if name in homes:
-            return getattr(import_module(f"{package}.{homes[name]}"), name)
+            found = getattr(import_module(f"{package}.{homes[name]}"), name)
+            # Kept: the tests ask 200 000 times, 1 s in each of their processes.
+            setattr(modules[package], name, found)
+            return found
         from difflib import get_close_matches  # for this alone
 
         close = [] if name.startswith("_") else get_close_matches(name, homes, n=1)

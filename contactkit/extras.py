@@ -9,6 +9,7 @@ from .errors import MissingExtraError
 __all__ = ["missing_extra", "require"]
 
 _EXTRAS = {
+    "PIL": "plot",
     "SurfaceTopography": "maps",
     "distributed": "dask",
     "ducc0": "fast",

@@ -26,6 +26,7 @@ __all__ = [
     "SLIDING_EFFECTS",
     "SLIDING_LOADINGS",
     "SLIDING_SCENE_EFFECTS",
+    "SOLIDS",
     "SURFACES",
     "TEMPERATURE_LAWS",
     "register",
@@ -127,6 +128,17 @@ SURFACES: Registry[Any] = Registry(
     group="contactkit.surfaces",
     role="Surface",
 )
+SOLIDS: Registry[Any] = Registry(
+    "solid",
+    {"material": "scene.materials:Material", "stack": "scene.materials:Stack"},
+    tag="kind",
+    group="contactkit.solids",
+    role="Solid",
+    naming="implied",
+)
+"""What bodies are made of. A `Layer` is a part of a stack, and a `RigidBase` one of the three
+conditions below layers that the elasticity of layered half-spaces knows (an endless substrate,
+bonded, frictionless): neither is a kind, as another one would need an influence function first."""
 SEPARATION_LOADINGS: Registry[Any] = _loadings(
     "separation loading",
     {
@@ -179,14 +191,14 @@ HARDNESS_RULES: Registry[Any] = Registry(
     tag="kind",
     group="contactkit.hardness_rules",
     role="HardnessRule",
-    plain=True,
+    naming="plain",
 )
 MENISCUS_PROFILES: Registry[Any] = Registry(
     "meniscus profile",
     {"as-published": "separation.effects.meniscus:AsPublished"},
     tag="kind",
     role="AsPublished",
-    plain=True,
+    naming="plain",
 )
 PLANFORMS: Registry[Any] = Registry(
     "planform",
@@ -198,6 +210,7 @@ PLANFORMS: Registry[Any] = Registry(
         "sector": "scene.planforms:Sector",
         "polygon": "scene.planforms:Polygon",
         "image": "scene.planforms:Image",
+        "image-file": "scene.planforms:ImageFile",
         "union": "scene.planforms:Union",
         "intersection": "scene.planforms:Intersection",
         "difference": "scene.planforms:Difference",
@@ -215,6 +228,7 @@ FACE_HOLES: Registry[Any] = Registry(
 KINDS: Registries[Any] = Registries(
     EFFECTS,
     SURFACES,
+    SOLIDS,
     LOADINGS,
     TEMPERATURE_LAWS,
     ATTRACTION_LAWS,
@@ -227,7 +241,7 @@ KINDS: Registries[Any] = Registries(
 
 
 def register(kind: K) -> K:
-    """Register a class of your own: an effect, a surface, a law or a loading.
+    """Register a class of your own: an effect, a surface, a solid, a law or a loading.
 
     It is then planned, saved, loaded and varied by studies like those of contactkit. In a session
     it lasts until Python ends; a package declares it as an entry point instead, and everyone who
@@ -236,8 +250,8 @@ def register(kind: K) -> K:
         [project.entry-points."contactkit.surfaces"]
         cone = "indenters.shapes:Cone"  # its name in files = "module:class"
 
-    The groups are ``contactkit.effects``, ``.surfaces``, ``.loadings``, ``.temperature_laws``,
-    ``.attraction_laws``, ``.hardness_rules`` and ``.planforms``.
+    The groups are ``contactkit.effects``, ``.surfaces``, ``.solids``, ``.loadings``,
+    ``.temperature_laws``, ``.attraction_laws``, ``.hardness_rules`` and ``.planforms``.
 
     Parameters
     ----------

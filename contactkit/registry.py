@@ -6,7 +6,7 @@ import inspect
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Literal, TypeVar
 
 from ._lazy import named
 from .errors import DescriptionError, nearest
@@ -166,8 +166,9 @@ class Registry(_Listing[T_co]):
         What the base class is, for messages.
     attribute : str
         Attribute of a class that is its name in files.
-    plain : bool
-        Whether a name alone stands for a kind whose fields are at their defaults.
+    naming : {"tagged", "plain", "implied"}
+        How files name a kind: by the tag in its table; ``"plain"``: also by its name alone where
+        its fields are at their defaults; ``"implied"``: those of contactkit by their keys alone.
 
     Examples
     --------
@@ -190,11 +191,12 @@ class Registry(_Listing[T_co]):
         group: str = "",
         role: str = "",
         attribute: str = "kind",
-        plain: bool = False,
+        naming: Literal["tagged", "plain", "implied"] = "tagged",
     ) -> None:
         self.family, self.homes, self.tag, self.group = family, homes, tag, group
         self.what = what or family
-        self.role, self.attribute, self.plain = role, attribute, plain
+        self.role, self.attribute, self.plain = role, attribute, naming == "plain"
+        self.implied = tuple(homes) if naming == "implied" else ()
         self.own: dict[str, type[T_co]] = {}
         """Classes that `register` was given, by their names."""
 

@@ -73,7 +73,7 @@ class Described:
                 raise TypeError(f"{cls.__name__}() takes its fields by name: {first}=...")
             for key in given:
                 if key not in known:
-                    cure = nearest(key, known)
+                    cure = nearest(key, [k for k, a in known.items() if a.name[0] != "_"])
                     raise TypeError(
                         f"{cls.__name__}() got an unexpected keyword argument {key!r}; {cure}"
                     )

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Mapping, Sequence
+from time import process_time
 
 from attrs import field, frozen
 
@@ -92,7 +92,7 @@ class WorkPrecision:
             rows.append(
                 f"{p.method:34s} {p.label:16s} {error} {p.seconds:9.4f}  {p.problem or counts}"
             )
-        rows.append("seconds: wall time, the least where a setting ran more than once")
+        rows.append("seconds: CPU time of the process, the least where a setting ran repeatedly")
         rows.append(
             f"relative error of the {self.quantity} against "
             f"{self.judge or f'{self.reference:.10g}'}, known to {self.floor:.0e}"
@@ -109,7 +109,6 @@ def sweep(
     repeats: int = 5,
     budget: float = 2.0,
     progress: Callable[[float], None] | None = None,
-    clock: Callable[[], float] = time.perf_counter,
 ) -> WorkPrecision:
     """Run and time every setting.
 
@@ -117,28 +116,25 @@ def sweep(
     ----------
     settings : sequence of Setting
         Settings to run. Each runs once untimed, then up to `repeats` times within `budget` [s];
-        the best time counts. With no repeats the first run counts.
+        the least CPU time of the process counts. With no repeats, or where it takes
+        longer than the budget, the first run counts.
     reference : float
         Reference value, from a closed form or a method other than those compared.
     quantity : str
         Name of the quantity.
     floor : float
         Relative error of the reference itself; errors below it are not significant.
-    clock : callable
-        Time [s] that seconds are counted by; ``time.process_time`` on a busy machine.
     """
     points = []
     for i, setting in enumerate(settings):
-        points.append(_measure(setting, reference, repeats, budget, clock))
+        points.append(_measure(setting, reference, repeats, budget))
         if progress is not None:
             progress((i + 1) / len(settings))
     return WorkPrecision(quantity, reference, floor, tuple(points))
 
 
-def _measure(
-    setting: Setting, reference: float, repeats: int, budget: float, clock: Callable[[], float]
-) -> Point:
-    begun = clock()
+def _measure(setting: Setting, reference: float, repeats: int, budget: float) -> Point:
+    begun = process_time()
     try:
         outcome = setting.run()
     except ContactkitError as problem:
@@ -146,16 +142,14 @@ def _measure(
         return Point(
             setting.method, setting.label, math.nan, math.nan, {}, reason, setting.is_model
         )
-    best = math.inf
-    warm = clock() - begun
-    if repeats == 0:
-        best = warm
-    for _ in range(repeats):
-        start = clock()
+    warm = process_time() - begun
+    best = warm if repeats == 0 or warm > budget else math.inf
+    for _ in range(repeats if warm <= budget else 0):
+        start = process_time()
         if start - begun + min(best, warm) > budget and best < math.inf:
             break
         setting.run()
-        best = min(best, clock() - start)
+        best = min(best, process_time() - start)
     error = outcome.error
     if error is None:
         error = abs(outcome.value / reference - 1.0)

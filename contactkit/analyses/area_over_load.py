@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
+from attrs import field, frozen
 
 from ..contact.effects.base import Attraction
 from ..contact.effects.elasticity import HalfSpace
@@ -15,6 +16,8 @@ from ..frozen import FrozenDict
 from ..roughness import contact_theories
 from ..roughness.contact_theories import RANGES, Range, in_range
 from ..roughness.statistics import Summits, SurfaceStatistics, summits, surface_statistics
+from ..scene.curve import Curve, Shown
+from ..units import si
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,26 +27,65 @@ if TYPE_CHECKING:
 __all__ = ["AreaOverLoad", "area_over_load"]
 
 
-class AreaOverLoad(NamedTuple):
-    """Solved contacts of one surface under several loads, and what theories give for them."""
+_SOURCES = {
+    "Persson": "Persson, J. Chem. Phys. 115 (2001) 3840",
+    "Bush, Gibson and Thomas": "Bush, Gibson and Thomas, Wear 35 (1975) 87",
+    "Greenwood and Williamson": "Greenwood and Williamson, Proc. R. Soc. A 295 (1966) 300",
+}
 
-    mean_pressure: Floats
-    """Mean pressures [Pa], ascending."""
-    counted: Floats
-    """Fractions of the window in contact [-], as pixel counts."""
-    corrected: Floats
-    """The same, edge-corrected [-] (`ContactResult.corrected_contact_area`)."""
-    theories: Mapping[str, Floats]
-    """Fractions [-] by the names of `ranges`, at the same pressures, also outside of them.
 
-    nan where a theory gives more than 1, which is no fraction.
+@frozen(eq=False, kw_only=True)
+class AreaOverLoad(Curve):
+    """Solved contacts of one surface under several loads, and what theories give for them.
+
+    Attributes
+    ----------
+    mean_pressure : ndarray, shape (n,)
+        Mean pressures [Pa], ascending.
+    counted : ndarray, shape (n,)
+        Fractions of the window in contact [-], as pixel counts.
+    corrected : ndarray, shape (n,)
+        The same, edge-corrected [-] (`ContactResult.corrected_contact_area`).
+    theories : mapping of str to ndarray (n,)
+        Fractions [-] by the names of `ranges`, at the same pressures, also outside of them; nan
+        where a theory gives more than 1, which is no fraction. Columns of their names in small
+        letters, such as ``persson``.
+    contact_modulus : float
+        Contact modulus E* [Pa].
+    statistics : SurfaceStatistics
+        Statistics of the heights of both bodies together.
+    summits : Summits
+        Their summits.
     """
-    contact_modulus: float
-    """Contact modulus E* [Pa]."""
-    statistics: SurfaceStatistics
-    """Statistics of the heights of both bodies together."""
-    summits: Summits
-    """Their summits."""
+
+    axis: ClassVar[str] = "mean_pressure"
+    title: ClassVar[str] = "area of contact over the load"
+
+    mean_pressure: Floats = field(repr=False, metadata=si("Pa"))
+    counted: Floats = field(repr=False, metadata=si("-"))
+    corrected: Floats = field(repr=False, metadata=si("-"))
+    theories: Mapping[str, Floats] = field(repr=False)
+    contact_modulus: float = field(metadata=si("Pa"))
+    statistics: SurfaceStatistics = field(repr=False)
+    summits: Summits = field(repr=False)
+
+    @property
+    def shown(self) -> Shown:
+        """See `Curve.shown`."""
+        return {"area": (("counted", "corrected", *map(_column, self.theories)), "")}
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """See `Curve.sources`: those of the theories; the fit is contactkit's own."""
+        return tuple(_SOURCES[name] for name in self.theories if name in _SOURCES)
+
+    def table(self) -> dict[str, tuple[Any, str]]:
+        """Return the columns by name, each with its unit."""
+        return super().table() | {_column(n): (one, "-") for n, one in self.theories.items()}
+
+    def scalars(self) -> dict[str, tuple[float, str]]:
+        """Return the contact modulus and the rms slope that pressures are taken over."""
+        return super().scalars() | {"rms_slope": (self.statistics.rms_slope, "-")}
 
     @property
     def ranges(self) -> Mapping[str, Range]:
@@ -63,7 +105,9 @@ class AreaOverLoad(NamedTuple):
     def fractions_at(self, reduced_pressure: Floats) -> Mapping[str, Floats]:
         """Fractions [-] of the theories at other pressures over E* h' [-], as `theories`."""
         scale = self.contact_modulus * self.statistics.rms_slope
-        return _theories(reduced_pressure * scale, self.contact_modulus, self)
+        return _theories(
+            reduced_pressure * scale, self.contact_modulus, self.statistics, self.summits
+        )
 
 
 def area_over_load(results: Sequence[ContactResult]) -> AreaOverLoad:
@@ -112,16 +156,15 @@ def area_over_load(results: Sequence[ContactResult]) -> AreaOverLoad:
     numbers = surface_statistics(first.heights, grid.pixel_size, periodic=grid.periodic)
     tops = summits(first.heights, grid.pixel_size, periodic=grid.periodic)
     pressure = np.array([one.mean_pressure for one in ordered])
-    made = AreaOverLoad(
+    return AreaOverLoad(
         mean_pressure=pressure,
         counted=np.array([one.contact_fraction for one in ordered]),
         corrected=np.array([one.corrected_contact_area / grid.area for one in ordered]),
-        theories={},
+        theories=_theories(pressure, modulus, numbers, tops),
         contact_modulus=modulus,
         statistics=numbers,
         summits=tops,
     )
-    return made._replace(theories=_theories(pressure, modulus, made))
 
 
 def _check_kind(given: object) -> None:
@@ -158,15 +201,22 @@ def _check(result: ContactResult, first: ContactResult) -> None:
         )
 
 
-def _theories(pressure: Floats, modulus: float, made: AreaOverLoad) -> Mapping[str, Floats]:
-    slope = made.statistics.rms_slope
+def _column(theory: str) -> str:
+    """Name of the column of a theory."""
+    return theory.lower().replace(",", "").replace(" ", "_")
+
+
+def _theories(
+    pressure: Floats, modulus: float, statistics: SurfaceStatistics, tops: Summits
+) -> Mapping[str, Floats]:
+    slope = statistics.rms_slope
     found = {
         "Persson": contact_theories.persson_area(pressure, modulus, slope),
         "Bush, Gibson and Thomas": contact_theories.bush_gibson_thomas(pressure, modulus, slope),
         "fit of slope 2": contact_theories.interpolated_area(pressure, modulus, slope),
     }
-    if made.summits.rms_height > 0.0:  # summits of one height are no Gaussian population
+    if tops.rms_height > 0.0:  # summits of one height are no Gaussian population
         found["Greenwood and Williamson"] = contact_theories.greenwood_williamson_area(
-            pressure, modulus, made.summits
+            pressure, modulus, tops
         )
     return FrozenDict({k: np.where(one > 1.0, np.nan, one) for k, one in found.items()})

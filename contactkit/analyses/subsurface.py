@@ -101,11 +101,10 @@ def stress_below(
     ...     effects=(ck.HalfSpace(),),
     ... )
     >>> ball = ck.solve(ck.plan(scene, ck.Accuracy(grid=48)))
-    >>> for mu in (0.0, 0.25, 0.5):  # Hamilton's: 0.620, 0.648, 0.957 of the maximum pressure
+    >>> for mu in (0.0, 0.5):  # Hamilton's: 0.620 and 0.957 of the maximum pressure
     ...     part = stress_below(ball, friction=ck.FrictionTraction(coefficient=mu))
     ...     print(round(part.maxima["von_mises"].value / ball.max_pressure, 2))
     0.62
-    0.65
     0.96
     """
     effect = effect if effect is not None else SubsurfaceStress()

@@ -8,6 +8,7 @@ from typing import Any, Literal, NamedTuple
 
 from attrs import frozen
 
+from ..accuracy import Accuracy
 from ..errors import PlanError
 from ..export.report import FmuStart
 from .scenes import Opened, open_scene
@@ -97,10 +98,12 @@ def build_fmu(order: Order) -> str:
 def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any]) -> str:
     """Build an FMU in C; `given` are start values of a model that is built by its name."""
     from ..fmu.native.build import build_native, native_scene
+    from ..fmu.native.deforming import DEFORMING, exactness_of
     from ..fmu.native.drive import build_native_drive, build_native_stop
     from ..fmu.native.tip import build_native_tip
     from ..models.micromirror.scene import MicromirrorScene
     from ..scene.scenes import ContactScene
+    from ..separation.deforming.effects import ElasticBodies
 
     what, model, fmi = order.what, order.model, _version(order.fmi)
     scene = getattr(opened, "scene", None)
@@ -137,7 +140,12 @@ def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any])
     film, start = native_scene(opened or _Named(FmuStart(what, given)), _film_model(model))
     accuracy = getattr(opened, "accuracy", None)
     rtol = None if accuracy is None else accuracy.film_rtol
+    rtol = None if rtol == Accuracy.standard.film_rtol else rtol  # which nobody asked for
     build_native(film, order.out, model=kind, start=start, fmi=fmi, film_rtol=rtol)
+    if film.effect(ElasticBodies) is not None:
+        own = getattr(film.loading, "mass", None) if kind == "stiction-mass" else None
+        how = exactness_of(film, rtol, own).text
+        return f"{DEFORMING[kind]}, native, FMI {fmi}.0: {how}"
     return f"{kind}, native, FMI {fmi}.0"
 
 

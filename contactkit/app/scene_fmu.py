@@ -28,9 +28,13 @@ def fmu_start(scene: Scene, accuracy: Accuracy) -> FmuStart:
 @fmu_start.register
 def _(scene: SeparationScene, accuracy: Accuracy) -> FmuStart:
     from ..fmu.slaves.stiction_mass import mass_values
-    from ..separation.deforming.maxwell import refuse_fmu
+    from ..separation.deforming.effects import ElasticBodies
 
-    refuse_fmu(scene)
+    if scene.effect(ElasticBodies) is not None:
+        raise PlanError(
+            "the Python FMUs have films between rigid bodies, and this scene has ElasticBodies: "
+            "build it --native, as contactkit.fmu.native.build.build_native"
+        )
     return FmuStart("stiction-mass", mass_values(scene))
 
 

@@ -1,4 +1,4 @@
-"""Accuracy of contact solvers: methods, slip, adhesion, histories, curves, lines.
+"""Accuracy of contacts of spheres: pressure, slip, adhesion, histories, lines.
 
 Errors are against a closed form, or against the finest setting where there is none. Counts are
 convolutions, applications of the operators.
@@ -7,7 +7,7 @@ convolutions, applications of the operators.
 from __future__ import annotations
 
 import math
-import time
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,29 +16,25 @@ from attrs import evolve
 from ..accuracy import Accuracy
 from ..adhesion import maugis_dugdale
 from ..adhesion.parameters import scales
-from ..analyses.load_curve import load_curve
 from ..analyses.pull_off import PullOffCurve, pull_off_curve
 from ..contact.effects.adhesion import Adhesion
 from ..contact.effects.attraction_laws import DugdaleAttraction
-from ..contact.effects.elasticity import HalfSpace, LayeredHalfSpace
+from ..contact.effects.elasticity import LayeredHalfSpace
 from ..contact.effects.partial_slip import PartialSlip
 from ..contact.effects.plastic_history import PlasticHistory
 from ..contact.effects.plasticity import HardnessLimit
 from ..contact.press import press
 from ..contact.solve import solve_unwarned
-from ..files.scenes import load_liquid, load_material
 from ..planning import plan
 from ..reference import hertz, partial_slip
 from ..scene.interface import Body, Interface
 from ..scene.loading import Approach, Pressing, TangentialStep
 from ..scene.materials import Layer, Material, RigidBase, Stack
-from ..scene.meniscus import Meniscus
-from ..scene.rough_surfaces import SelfAffineRoughness
 from ..scene.scenes import ContactScene
 from ..scene.surfaces import Paraboloid
 from ..scene.window import Window
 from ..work_precision import Point
-from .contact import solver_sweep
+from .timing import timed
 
 if TYPE_CHECKING:
     from ..contact.result import ContactResult
@@ -47,12 +43,9 @@ __all__ = [
     "adhesion",
     "adhesive_sphere",
     "coupled",
-    "curve",
     "hertzian",
     "history",
     "lines",
-    "methods",
-    "rough_steel",
     "slip",
 ]
 
@@ -75,34 +68,9 @@ def _scene(loading: Any, *effects: Any, solid: Any = GLASS) -> ContactScene:
     )
 
 
-def _solved(made: ContactScene, grid: int, rtol: float = 1e-8) -> ContactResult:
-    return solve_unwarned(plan(made, Accuracy(grid=grid, rtol=rtol)))
-
-
-def rough_steel(*effects: Any, solid: Any = None, pressure: float = 2e8) -> ContactScene:
-    """Steel under a rough rigid flat with water between them, 2 um wide: for 256 x 256 pixels."""
-    rough = SelfAffineRoughness(rms=2e-9, hurst=0.8, rolloff=1e-6, cutoff=62.5e-9, seed=1)
-    angle = math.radians(60.0)
-    water = Meniscus(
-        liquid=load_liquid("water"), contact_angle_lower=angle, contact_angle_upper=angle
-    )
-    return ContactScene(
-        interface=Interface(
-            lower=Body(solid=solid or load_material("bearing-steel")),
-            upper=Body(surface=rough),
-            meniscus=water,
-        ),
-        window=Window(width=2e-6),
-        loading=Pressing(pressure=pressure),
-        effects=effects,
-    )
-
-
-def methods() -> list[Point]:
-    """Error of the pressure map of a rough contact over the tolerance, by method; CPU seconds."""
-    scene, accuracy = rough_steel(HalfSpace()), Accuracy(grid=256)
-    swept = solver_sweep(scene, accuracy, lambda done: None, clock=time.process_time)
-    return list(swept.points)
+def _solved(made: ContactScene, grid: int, rtol: float = 1e-8) -> tuple[ContactResult, float]:
+    """A contact, and CPU seconds of plan and solve."""
+    return timed(lambda: solve_unwarned(plan(made, Accuracy(grid=grid, rtol=rtol))))
 
 
 def hertzian() -> list[Point]:
@@ -111,13 +79,13 @@ def hertzian() -> list[Point]:
     for pixels in (8, 16, 32, 64, 128):
         made = _scene(Pressing(force=LOAD))
         window = Window(width=2.5 * HERTZ.contact_radius, periodic=False)
-        found = _solved(evolve(made, window=window), int(2.5 * pixels))
+        found, seconds = _solved(evolve(made, window=window), int(2.5 * pixels))
         errors = {
             "maximum pressure": found.max_pressure / HERTZ.peak_pressure,
             "approach": found.approach / HERTZ.approach,
             "contact radius": math.sqrt(found.contact_area / math.pi) / HERTZ.contact_radius,
         }
-        cost = found.work.seconds, found.work.n_operator_applications
+        cost = seconds, found.work.n_operator_applications
         label = f"{pixels} pixels"
         points += [_point(name, label, abs(r - 1.0), *cost) for name, r in errors.items()]
     return points
@@ -132,9 +100,9 @@ def slip() -> list[Point]:
 
     def run(grid: int, rtol: float) -> tuple[float, int, float]:
         effect = PartialSlip(coefficient=MU, path=(TangentialStep(ratio=0.6),), rtol=rtol)
-        found = _solved(_scene(Pressing(force=LOAD), effect), grid)
+        found, seconds = _solved(_scene(Pressing(force=LOAD), effect), grid)
         part = found.of(PartialSlip)
-        return float(part.displacement[-1]), part.applications, found.work.seconds
+        return float(part.displacement[-1]), part.applications, seconds
 
     points = []
     for n in (12, 24, 48, 96, 192):
@@ -152,7 +120,7 @@ def slip() -> list[Point]:
 def coupled() -> list[Point]:
     """Tractions and stick radius of a pressed sphere over the steps of pressing."""
 
-    def run(steps: int) -> tuple[Any, float, ContactResult]:
+    def run(steps: int) -> tuple[Any, float, tuple[float, int]]:
         effect = PartialSlip(
             coefficient=MU,
             path=(TangentialStep(force=0.0),),
@@ -160,16 +128,16 @@ def coupled() -> list[Point]:
             coupled=True,
             pressing_steps=steps,
         )
-        found = _solved(_scene(Pressing(force=LOAD), effect), 48, rtol=1e-6)
+        found, seconds = _solved(_scene(Pressing(force=LOAD), effect), 48, rtol=1e-6)
         part = found.of(PartialSlip)
         tractions = np.array([part.traction_x[0], part.traction_y[0]])
-        return tractions, math.sqrt(part.stick_fraction[0]), found
+        cost = seconds, found.work.n_operator_applications
+        return tractions, math.sqrt(part.stick_fraction[0]), cost
 
     best, radius, _ = run(64)
     bound, tractions, radii = np.linalg.norm(best), [], []
     for steps in (1, 2, 4, 8, 16, 32):
-        found, own, result = run(steps)
-        cost = result.work.seconds, result.work.n_operator_applications
+        found, own, cost = run(steps)
         label = f"{steps} step" + "s" * (steps > 1)
         error = float(np.linalg.norm(found - best) / bound)
         tractions.append(_point("tractions, rms", label, error, *cost))
@@ -212,12 +180,10 @@ def adhesive_sphere(transition: float, pixels: int) -> PullOffCurve:
 def adhesion() -> list[Point]:
     """Pull-off force against Maugis over the grid."""
     points = []
-    for transition in (0.1, 1.0, 2.0):
+    for transition in SPHERES:
         exact = -maugis_dugdale.limits(transition).pull_off.load
-        for n in (24, 32, 48, 64, 96):
-            begun = time.perf_counter()
-            found = adhesive_sphere(transition, n)
-            seconds = time.perf_counter() - begun
+        for n in (32, 64, 128):
+            found, seconds = timed(partial(adhesive_sphere, transition, n))
             error = abs(found.pull_off_force / UNITS.load / exact - 1.0)
             method = f"Maugis parameter {transition:g}"
             points.append(_point(method, f"{n} x {n}", error, seconds, found.n_applications))
@@ -229,10 +195,10 @@ def history() -> list[Point]:
 
     def run(steps: int) -> tuple[float, float, tuple[float, int]]:
         effects = HardnessLimit(rule="material"), PlasticHistory(forces=(LOAD,), steps=steps)
-        found = _solved(_scene(Pressing(force=0.0), *effects), 64)
+        found, seconds = _solved(_scene(Pressing(force=0.0), *effects), 64)
         part, work = found.of(PlasticHistory), found.work
         loss = float(part.plastic_work[-1])
-        return part.work_error, loss, (work.seconds, work.n_operator_applications)
+        return part.work_error, loss, (seconds, work.n_operator_applications)
 
     best, balance, losses = run(1)[1], [], []
     for steps in (2, 4, 8, 16, 32):
@@ -243,29 +209,6 @@ def history() -> list[Point]:
     return balance + losses
 
 
-def curve() -> list[Point]:
-    """Twenty loads of a rough map: largest error of approach and pressure over the tolerance."""
-    rough = SelfAffineRoughness(rms=1e-9, hurst=0.8, rolloff=5e-7, cutoff=8e-8, seed=1)
-    made = ContactScene(
-        interface=Interface(lower=Body(solid=GLASS), upper=Body(surface=rough)),
-        window=Window(width=1e-6),
-        loading=Pressing(pressure=1e8),
-        effects=(HalfSpace(),),
-    )
-    pressures = [float(p) for p in np.geomspace(1e7, 4e8, 20)]
-    prepared = plan(made, Accuracy(grid=128))
-    best = load_curve(prepared, pressures=pressures, rtol=1e-10)
-    names = {"approach": "approach", "max_pressure": "maximum pressure"}
-    points: dict[str, list[Point]] = {name: [] for name in names}
-    for rtol in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8):
-        one = load_curve(prepared, pressures=pressures, rtol=rtol)
-        cost = one.seconds.sum(), one.applications.sum()
-        for name, label in names.items():
-            error = float(np.abs(one[name] / best[name] - 1.0).max())
-            points[name].append(_point(f"20 loads, {label}", f"rtol {rtol:g}", error, *cost))
-    return [point for some in points.values() for point in some]
-
-
 def lines() -> list[Point]:
     """Maximum pressure of a cylinder (Hertz) and of a sphere on a sheet over the grid."""
     load = 200.0  # [N/m]
@@ -274,9 +217,11 @@ def lines() -> list[Point]:
     for n in (16, 32, 64, 128, 256):
         y = (np.arange(n) + 0.5) / n * side - 0.5 * side
         heights = np.repeat(-(y**2) / (2.0 * RADIUS), 2).reshape(n, 2)
-        found = press(heights, side / n, GLASS, mean_pressure=load / side, periodic="x", rtol=1e-8)
+        given = heights, side / n, GLASS
+        press_it = partial(press, *given, mean_pressure=load / side, periodic="x", rtol=1e-8)
+        found, seconds = timed(press_it)
         error = abs(found.max_pressure / exact - 1.0)
-        points.append(_on_grid("cylinder, one-axis window", n, error, found))
+        points.append(_on_grid("cylinder, one-axis window", n, error, found, seconds))
     sheet = Stack(
         layers=(Layer(material=GLASS, thickness=2.0 * HERTZ.contact_radius),),
         substrate=RigidBase(bonded=True),
@@ -284,14 +229,13 @@ def lines() -> list[Point]:
     runs = {
         n: _solved(_scene(Pressing(force=LOAD), solid=sheet), n) for n in (16, 32, 64, 128, 384)
     }
-    best = runs.pop(384).max_pressure
+    best = runs.pop(384)[0].max_pressure
     return points + [
-        _on_grid("sphere on a sheet on a base", n, abs(one.max_pressure / best - 1.0), one)
+        _on_grid("sphere on a sheet on a base", n, abs(one[0].max_pressure / best - 1.0), *one)
         for n, one in runs.items()
     ]
 
 
-def _on_grid(method: str, n: int, error: float, found: ContactResult) -> Point:
-    work = found.work
-    cost = work.seconds, work.n_operator_applications
-    return _point(method, f"{n} pixels across", error, *cost)
+def _on_grid(method: str, n: int, error: float, found: ContactResult, seconds: float) -> Point:
+    work = found.work.n_operator_applications
+    return _point(method, f"{n} pixels across", error, seconds, work)

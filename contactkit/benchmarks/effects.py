@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from attrs import evolve
@@ -14,6 +14,7 @@ from ..contact.effects.friction import FrictionTraction
 from ..errors import ConvergenceError
 from ..planning import plan
 from ..scene.scenes import ContactScene
+from .timing import timed
 
 if TYPE_CHECKING:
     from ..contact.result import ContactResult
@@ -24,7 +25,7 @@ Progress = Callable[[float], None]
 
 
 class EffectCost(NamedTuple):
-    """Seconds and operator applications of a scene with the effects up to this one."""
+    """CPU seconds and operator applications of a scene with the effects up to this one."""
 
     name: str
     seconds: float
@@ -42,7 +43,7 @@ def effect_costs(
         some = evolve(scene, effects=tuple(order[:i]))
         name = ("" if i == 1 else "+ ") + order[i - 1].name
         try:
-            best, result = _best_of_two(some, accuracy)
+            result, best = timed(partial(_solved, some, accuracy))
         except ConvergenceError as error:
             found.append(EffectCost(name, float("nan"), 0, str(error).split(";")[0]))
         else:
@@ -56,12 +57,7 @@ def _rank(effect: object) -> int:
     return next((i for i, kind in enumerate(ranks) if isinstance(effect, kind)), len(ranks))
 
 
-def _best_of_two(scene: ContactScene, accuracy: Accuracy) -> tuple[float, ContactResult]:
+def _solved(scene: ContactScene, accuracy: Accuracy) -> ContactResult:
     from ..contact.solve import solve_unwarned
 
-    seconds = []
-    for _ in range(2):
-        begun = time.perf_counter()
-        result = solve_unwarned(plan(scene, accuracy))
-        seconds.append(time.perf_counter() - begun)
-    return min(seconds), result
+    return solve_unwarned(plan(scene, accuracy))

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
-from pathlib import Path
 from typing import Any
 
 from ..liquids.liquid import Liquid
-from ..reading.texts import from_json
 from ..scene.interface import Interface
 from ..scene.loading import ImposedForce
 from ..scene.meniscus import Meniscus
@@ -16,11 +13,11 @@ from ..scene.scenes import SeparationScene
 from ..scene.surfaces import Flat
 from ..separation.effects.meniscus import AsPublished, MeniscusForce
 from ..separation.effects.viscous import TensionLimit, ViscousForce
+from .references.tables import reference
 
 __all__ = ["release_cases", "release_scene"]
 
 
-@cache
 def release_cases() -> Mapping[str, Mapping[str, Any]]:
     """Parameters of each case under ``case``, its reference under ``values``, in SI units.
 
@@ -32,8 +29,7 @@ def release_cases() -> Mapping[str, Mapping[str, Any]]:
     >>> round(release_cases()["D"]["values"]["t_rel"], 6)
     1.996312
     """
-    path = Path(__file__).with_name("releases.json")
-    cases: Mapping[str, Mapping[str, Any]] = from_json(path.read_text("utf-8"), path.name)
+    cases: Mapping[str, Mapping[str, Any]] = reference("releases")
     return cases
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 import warnings
 from collections.abc import Callable
 from functools import partial
@@ -37,9 +36,7 @@ TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 """Relative tolerances of time that are compared."""
 
 
-def separation_sweep(
-    scene: SeparationScene, progress: Progress, clock: Callable[[], float] = time.perf_counter
-) -> WorkPrecision:
+def separation_sweep(scene: SeparationScene, progress: Progress) -> WorkPrecision:
     """Error of the release time of a pull over the tolerance of time, against another solver."""
     if not isinstance(scene.loading, ImposedForce) or scene.loading.mass is None:
         raise PlanError(
@@ -70,9 +67,7 @@ def separation_sweep(
         for rtol in TOLERANCES[::3]
     ]
     floor = max(abs(near.value / exact.value - 1.0), 1e-14)
-    return sweep(
-        settings, exact.value, quantity="release time", floor=floor, progress=progress, clock=clock
-    )
+    return sweep(settings, exact.value, quantity="release time", floor=floor, progress=progress)
 
 
 def _release(scene: SeparationScene, rtol: float) -> Outcome:

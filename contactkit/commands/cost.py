@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
+from ..errors import DescriptionError, nearest
 from . import options
 from .work import Job, run_job
 
@@ -14,7 +16,7 @@ __all__ = ["cost"]
 
 
 @click.command(cls=options.Command)
-@options.scene
+@options.costed
 @options.settings
 @options.folder
 @click.option(
@@ -35,12 +37,24 @@ def cost(
     SCENE is a scene file, or the name of a scene, an accuracy study or a hard case of contactkit.
     """
     job = Job("cost", scene, settings, out, overwrite, as_json)
-    study = None if settings else _study(scene)
+    study = _study(scene, settings)
     run_job(job, lambda opened, progress: opened.cost(out, progress, error), opened=study)
 
 
-def _study(name: str) -> Any:
+def _study(name: str, settings: Sequence[str]) -> Any:
     """A study or a hard case of that name, if there is one; a scene has the name otherwise."""
     from ..benchmarks.table import HARD_CASES, STUDIES
 
-    return STUDIES.get(name) or HARD_CASES.get(name)
+    known = {**STUDIES, **HARD_CASES}
+    if name in known and settings:
+        cure = "settings are of a scene; a study brings its own"
+        raise DescriptionError("--set", settings[0], "be left out", hint=cure)
+    if name not in (names := options.cost_names()) and not _is_path(name):
+        expected = "be a file, or the name of a scene, an accuracy study or a hard case"
+        raise DescriptionError("scene", name, expected, hint=nearest(name, names))
+    return known.get(name)
+
+
+def _is_path(name: str) -> bool:
+    """Whether a file is meant, as `open_scene` takes it."""
+    return bool(Path(name).suffix) or Path(name).exists()

@@ -18,6 +18,8 @@ __all__ = [
     "Group",
     "Names",
     "as_json",
+    "cost_names",
+    "costed",
     "file",
     "folder",
     "overwrite",
@@ -124,9 +126,17 @@ def _scene_names() -> Iterable[str]:
     return sorted(bundled_scenes())
 
 
+def cost_names() -> list[str]:
+    """Names that `contactkit cost` takes: scenes, accuracy studies, hard cases."""
+    from ..benchmarks.table import HARD_CASES, STUDIES
+
+    return sorted([*_scene_names(), *STUDIES, *HARD_CASES])
+
+
 _PATH: Any = click.Path(path_type=Path)
 
 scene = click.argument("scene", type=Names(_scene_names))
+costed = click.argument("scene", type=Names(cost_names))
 settings = click.option(
     "--set",
     "settings",

@@ -57,7 +57,7 @@ def press(
         holes: they carry no load, and `gap` means nothing there.
     pixel_size : float or (float, float)
         Size of a pixel [m]; a pair is (dy, dx). None with a topography.
-    stack : Stack or Material
+    stack : Material, Stack or another Solid
         Solid of the flat: layers on a substrate, or a half-space.
     mean_pressure : float
         Mean pressure over the map [Pa].
@@ -103,9 +103,9 @@ def press(
         raise DescriptionError(
             "press(stack)", None, "be a Stack or a Material: the solid of the flat"
         )
-    effects: list[ContactEffect[Any]] = [
-        LayeredHalfSpace() if isinstance(stack, Stack) and stack.layers else HalfSpace()
-    ]
+    flat = Body(solid=stack)
+    layered = flat.stack is not None and bool(flat.stack.layers)
+    effects: list[ContactEffect[Any]] = [LayeredHalfSpace() if layered else HalfSpace()]
     if hardness is not None:
         is_map = np.ndim(hardness) > 0
         given = HardnessMap(hardness) if is_map else _number(hardness, "Pa", "hardness")

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import attrs
 import numpy as np
 
 from ..accuracy import Accuracy
@@ -44,7 +43,7 @@ def pack_contact(result: ContactResult) -> tuple[dict[str, Any], Arrays]:
         "kind": "contact",
         "scene": unstructure(made.scene, arrays),
         "grid": [list(made.grid.shape), list(made.grid.pixel_size), *made.grid[2:]],
-        "accuracy": attrs.asdict(made.accuracy),
+        "accuracy": made.accuracy.saved(),
         "status": result.status,
         "message": result.message,
         "rigid_approach": result.rigid_approach,
@@ -65,7 +64,7 @@ def unpack_contact(header: Mapping[str, Any], arrays: Arrays, name: str) -> Cont
     scene = structure(with_arrays(header["scene"], arrays), ContactScene, name)
     (ny, nx), (dy, dx), *edges = header["grid"]
     grid, work = Grid((ny, nx), (dy, dx), *edges), header["work"]
-    accuracy = Accuracy(**header["accuracy"])
+    accuracy = Accuracy.of_file(header["accuracy"])
     maps = {name: arrays[name] for name in _MAPS}
     for key, one in maps.items():
         if one.shape != grid.shape or one.dtype != np.float64:

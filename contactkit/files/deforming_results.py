@@ -31,7 +31,7 @@ def pack_deforming(result: DeformingResult) -> tuple[dict[str, Any], Arrays]:
     header = {
         "kind": "deforming",
         "scene": unstructure(result.plan.scene),
-        "accuracy": attrs.asdict(result.plan.accuracy),
+        "accuracy": result.plan.accuracy.saved(),
         "status": result.status,
         "message": result.message,
         "numbers": dict(result.numbers),
@@ -45,7 +45,7 @@ def pack_deforming(result: DeformingResult) -> tuple[dict[str, Any], Arrays]:
 def unpack_deforming(header: Mapping[str, Any], arrays: Arrays, name: str) -> DeformingResult:
     """Result of a header and arrays, checked against the plan of its scene."""
     scene = structure(header["scene"], SeparationScene, name)
-    made = plan_deforming(scene, Accuracy(**header["accuracy"]))
+    made = plan_deforming(scene, Accuracy.of_file(header["accuracy"]))
     columns = {key: values for key, values in arrays.items() if key in COLUMNS}
     sections = {key: arrays[f"{_PREFIX}{key}"] for key in SECTIONS}
     points = columns["time"].shape

@@ -215,7 +215,7 @@ def _pack_separation(result: SeparationResult) -> dict[str, Any]:
     return {
         "kind": "separation",
         "scene": unstructure(result.plan.scene),
-        "accuracy": attrs.asdict(result.plan.accuracy),
+        "accuracy": result.plan.accuracy.saved(),
         "status": result.status,
         "message": result.message,
         "impulses": dict(result.impulses),
@@ -237,7 +237,7 @@ def read_state(state: Mapping[str, Any]) -> MotionState:
 
 def _unpack_separation(header: dict[str, Any], columns: Arrays, name: str) -> SeparationResult:
     scene = structure(header["scene"], SeparationScene, name)
-    made = plan(scene, Accuracy(**header["accuracy"]))
+    made = plan(scene, Accuracy.of_file(header["accuracy"]))
     state = header["state"]
     _check_columns(columns, made.columns)
     extremes = header.get("extremes")
@@ -278,7 +278,7 @@ def _pack_sliding(result: SlidingResult) -> dict[str, Any]:
     return {
         "kind": "sliding",
         "scene": unstructure(result.plan.scene),
-        "accuracy": attrs.asdict(result.plan.accuracy),
+        "accuracy": result.plan.accuracy.saved(),
         "status": result.status,
         "message": result.message,
         "totals": dict(result.totals),
@@ -289,7 +289,7 @@ def _pack_sliding(result: SlidingResult) -> dict[str, Any]:
 
 def _unpack_sliding(header: dict[str, Any], columns: Arrays, name: str) -> SlidingResult:
     scene = structure(header["scene"], SlidingScene, name)
-    made = plan_sliding(scene, Accuracy(**header["accuracy"]))
+    made = plan_sliding(scene, Accuracy.of_file(header["accuracy"]))
     _check_columns(columns, made.columns)
     outcome = (header["status"], header["message"])
     work = Work(**header["work"])

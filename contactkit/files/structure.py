@@ -15,12 +15,19 @@ from cattrs.gen import make_dict_structure_fn, override
 
 from .. import data
 from ..errors import DescriptionError, nearest
-from ..kinds import CONTACT_EFFECTS, KINDS, LOADINGS, SEPARATION_EFFECTS, SLIDING_EFFECTS
+from ..kinds import (
+    CONTACT_EFFECTS,
+    KINDS,
+    LOADINGS,
+    SEPARATION_EFFECTS,
+    SLIDING_EFFECTS,
+    SOLIDS,
+)
 from ..liquids.liquid import Liquid
 from ..registry import Registries, Registry, family_of
 from ..scene.interface import Body, Interface
 from ..scene.loading import Loading
-from ..scene.materials import Material, RigidBase, Stack
+from ..scene.materials import Material, RigidBase, Solid, Stack
 from ..scene.meniscus import Meniscus
 from ..scene.scenes import ContactScene, Scene
 from ..scene.surfaces import Surface
@@ -237,7 +244,7 @@ def _attrs_class(kind: type, more: tuple[str, ...] = ()) -> Callable[[Any, Any],
     if issubclass(kind, Scene):
         hooks["effects"] = override(struct_hook=_effects(kind))
     inner: Callable[[Any, Any], Any] = make_dict_structure_fn(kind, _CONVERTER, **hooks)  # type: ignore[arg-type]
-    known = [a.alias for a in attrs.fields(kind) if a.init]
+    known = [a.alias for a in attrs.fields(kind) if a.init and a.name[0] != "_"]
 
     def hook(value: Any, target: Any) -> Any:
         if not isinstance(value, Mapping):
@@ -267,7 +274,7 @@ def _liquid(value: Any, _: Any) -> Liquid:
 def _material(value: Any, _: Any) -> Material:
     if isinstance(value, str):
         return load_material(value)
-    made: Material = _MATERIAL(value, Material)
+    made: Material = _of_kind(value) if _has_kind(value) else _MATERIAL(value, Material)
     return made
 
 
@@ -337,10 +344,22 @@ def _edges(value: Any, _: Any) -> Any:
     return value
 
 
-def _solid(value: Any, _: Any) -> Material | Stack | None:
-    """A material, by name or as a table; a stack, which has a substrate; or "rigid"."""
+def _has_kind(value: Any) -> bool:
+    return isinstance(value, Mapping) and SOLIDS.tag in value
+
+
+def _of_kind(value: Any) -> Any:
+    """A solid of the kind that a table names; keys alone tell those of contactkit apart."""
+    return _tagged(SOLIDS, SOLIDS.tag)(value, None)
+
+
+def _solid(value: Any, _: Any) -> Solid | None:
+    """A material, by name or as a table; a stack, which has a substrate; another kind; "rigid"."""
     if value is None or value == "rigid":
         return None
+    if _has_kind(value):
+        solid: Solid = _of_kind(value)
+        return solid
     if isinstance(value, Mapping) and ("substrate" in value or "layers" in value):
         stack: Stack = _CONVERTER.structure(value, Stack)
         return stack
@@ -367,7 +386,7 @@ _CONVERTER.register_structure_hook(
 for _matches, _hook in (
     (lambda kind: kind is Liquid, _liquid),
     (lambda kind: kind is Material, _material),
-    (lambda kind: kind == Material | Stack | None, _solid),
+    (lambda kind: kind == Solid | None, _solid),
     (lambda kind: kind == Material | RigidBase, _carrier),
     (lambda kind: kind == bool | Literal["x", "y"] | None, _edges),
     (lambda kind: kind is Body, _body),

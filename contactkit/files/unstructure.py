@@ -86,10 +86,15 @@ class _Tables(NamedTuple):
         """Key and name of the kind of an object, if it is one of several."""
         kind, registry = type(value), KINDS.of(type(value))
         if registry is not None and (name := registry.name_of(kind)):
-            return {registry.tag: name}
+            return {} if name in registry.implied else {registry.tag: name}
         if self.for_key:
             return {"class": f"{kind.__module__}.{kind.__qualname__}"}
         if registry is None:
+            base = _replaced(kind)
+            if base and "." in place:  # a scene itself is of the kind that it is registered for
+                expected = f"be a {base} itself, as files name no class in its place"
+                hint = "keep the scene in Python, where pickle may hold it"
+                raise DescriptionError(place, value, expected, hint=hint)
             return {}
         raise DescriptionError(
             place,
@@ -97,6 +102,14 @@ class _Tables(NamedTuple):
             f"be of a {registry.what} that files can name",
             hint=f"register it first: ck.register({kind.__name__})",
         )
+
+
+def _replaced(kind: type) -> str:
+    """Class of contactkit that one from outside the package derives from; empty if it is of it."""
+    ours = __package__.partition(".")[0]
+    bases = [base for base in kind.__mro__ if "__attrs_attrs__" in vars(base)]
+    first = next((base for base in bases if base.__module__.partition(".")[0] == ours), None)
+    return first.__name__ if first is not None and first is not kind else ""
 
 
 def _put_away(item: Any, kind: type, attribute: attrs.Attribute[Any], arrays: Arrays | None) -> str:

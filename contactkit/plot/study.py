@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..studies.bands import RUNS, is_seed
-from ..studies.table import Study
+from ..studies.columns import StudyColumns
 from .axis_units import axis_label, readable
 from .style import Axes, Figure, figure, letters, plain_log, series, shared_legend, title
 
@@ -108,7 +108,7 @@ def _ratio(given: Sequence[Any]) -> float:
     return float(known.max() / known.min()) if known.size and known.min() > 0.0 else 1.0
 
 
-def overview(study: Study[Any], heading: str = "") -> Figure:
+def overview(study: StudyColumns, heading: str = "") -> Figure:
     """Draw the numbers of a study that change, a panel for each, over one of its parameters.
 
     That is the load or what else is imposed, if it varies, else the last parameter; there is a line
@@ -116,7 +116,7 @@ def overview(study: Study[Any], heading: str = "") -> Figure:
     """
     path = _along(study)
     lines = study.lines(path)
-    names = (study.telling() or tuple(study.points[0].scalars))[:_MOST_PANELS]
+    names = (study.telling() or study.number_names)[:_MOST_PANELS]
     columns = min(3, len(names))
     rows = -(-len(names) // columns)
     made, axes = figure(rows, columns, size=(4.0 * columns, 3.4 * rows), squeeze=False)
@@ -135,13 +135,13 @@ def overview(study: Study[Any], heading: str = "") -> Figure:
     return made
 
 
-def _along(study: Study[Any]) -> str:
+def _along(study: StudyColumns) -> str:
     """Path that points are drawn over: what is imposed if it varies, else the last parameter."""
     paths = [axis[0] for axis in study.paths if not is_seed(axis)] or [RUNS]
     return ([path for path in paths if path.startswith("loading")] or paths)[-1]
 
 
-def _panel(study: Study[Any], name: str, label: str = "") -> Panel:
+def _panel(study: StudyColumns, name: str, label: str = "") -> Panel:
     """Panel of a column, in the unit in which it reads best."""
     column = study.column(name)
     numbers = column.dtype.kind == "f"

@@ -51,7 +51,7 @@ def tornado(
         _, ax = figure(1, 1, (7.5, 1.0 + 0.42 * len(rows)))
     known = [v for one in rows for v in one.extent(found.base) if math.isfinite(v)]
     low, high = min(known, default=0.0), max(known, default=1.0)
-    factor, unit = axis_unit(max(abs(low), abs(high)), found.unit)
+    factor, unit = axis_unit(max(abs(low), abs(high)), found.quantity_unit)
     width = (high - low) / factor or abs(high) / factor or 1.0
     has_gaps = any(one.has_gaps for one in rows)
     end = high / factor + (_MISSING * width if has_gaps else 0.0)

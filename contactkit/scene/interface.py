@@ -17,7 +17,7 @@ from attrs import field, frozen
 
 from ..errors import PlanError
 from ..validators import Described, optional, part
-from .materials import Material, Stack
+from .materials import Solid, Stack
 from .meniscus import Meniscus
 from .surfaces import Flat, Surface
 from .topography import as_surface
@@ -34,17 +34,21 @@ class Body(Described):
     surface : Surface
         Its surface, smooth or rough; flat if not given. A topography object of SurfaceTopography
         is taken as `Heights`.
-    solid : Material, Stack or None
-        A homogeneous solid or a stack of layers. None: rigid.
+    solid : Material, Stack, another Solid or None
+        A homogeneous solid, a stack of layers, or a solid of one's own. None: rigid.
     """
 
     surface: Surface = field(factory=Flat, converter=as_surface, validator=part(Surface))
-    solid: Material | Stack | None = field(default=None, validator=optional(part(Material, Stack)))
+    solid: Solid | None = field(default=None, validator=optional(part(Solid)))
 
     @property
     def stack(self) -> Stack | None:
         """The solid as a stack; None if rigid."""
-        return Stack(substrate=self.solid) if isinstance(self.solid, Material) else self.solid
+        made: Any = None if self.solid is None else self.solid.stack
+        if not isinstance(made, Stack | None):
+            kind = type(self.solid).__name__
+            raise PlanError(f"{kind}.stack must be a Stack, the solid in layers; got {made!r}")
+        return made
 
     @property
     def elastic_stack(self) -> Stack:

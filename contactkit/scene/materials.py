@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+import abc
+from typing import Any, ClassVar, Literal
 
 from attrs import Attribute, field, frozen
 
 from ..units import si
 from ..validators import Described, as_tuple, optional, part, positive, refuse
 
-__all__ = ["Layer", "Material", "RigidBase", "Stack"]
+__all__ = ["Layer", "Material", "RigidBase", "Solid", "Stack"]
 
 
 def _poisson(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -19,7 +20,25 @@ def _poisson(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 
 @frozen(kw_only=True)
-class Material(Described):
+class Solid(Described, abc.ABC):
+    """The solid of a body. Its kind is its name in files, under ``kind``.
+
+    Effects know a solid as layers on a substrate, `stack`: the half-space of a `Material`, the
+    layers of a `Stack`, the layers by which a solid of one's own is represented, such as those of
+    a graded coating.
+    """
+
+    family: ClassVar[str] = "solid"
+    kind: ClassVar[str]
+
+    @property
+    @abc.abstractmethod
+    def stack(self) -> Stack:
+        """The solid as layers on a substrate or a rigid base."""
+
+
+@frozen(kw_only=True)
+class Material(Solid):
     """An isotropic elastic material; with a hardness, elastic-perfectly plastic in contact.
 
     Parameters
@@ -40,6 +59,8 @@ class Material(Described):
     230.77
     """
 
+    kind: ClassVar[str] = "material"
+
     name: str = "material"
     young_modulus: float = field(validator=positive, metadata=si("Pa"))
     poisson_ratio: float = field(validator=_poisson, metadata=si("-"))
@@ -49,6 +70,11 @@ class Material(Described):
     def plane_strain_modulus(self) -> float:
         """Plane strain modulus E/(1 - nu^2) [Pa]: the contact modulus against a rigid body."""
         return self.young_modulus / (1.0 - self.poisson_ratio**2)
+
+    @property
+    def stack(self) -> Stack:
+        """See `Solid.stack`."""
+        return Stack(substrate=self)
 
 
 @frozen(kw_only=True)
@@ -116,7 +142,7 @@ class RigidBase(Described):
 
 
 @frozen(kw_only=True)
-class Stack(Described):
+class Stack(Solid):
     """Layers on a substrate without end, or on a rigid base.
 
     Parameters
@@ -140,9 +166,16 @@ class Stack(Described):
     'DLC 2e-06 m / steel'
     """
 
+    kind: ClassVar[str] = "stack"
+
     layers: tuple[Layer, ...] = field(default=(), converter=as_tuple, validator=_all_layers)
     substrate: Material | RigidBase = field(validator=_carrier)
     name: str = ""
+
+    @property
+    def stack(self) -> Stack:
+        """See `Solid.stack`."""
+        return self
 
     @property
     def label(self) -> str:

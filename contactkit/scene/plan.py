@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import abc
 from os import PathLike
-from typing import Any, ClassVar, Literal, Protocol
+from typing import Any, ClassVar, Protocol
 
 from ..accuracy import Accuracy
 from ..errors import NotSimulatedError, PlanError
 from ..registry import Registries, Registry
 from .effect import Effect, as_written, choices
-from .scenes import ContactScene, Scene
+from .scenes import ContactScene, Scene, SeparationScene, SlidingScene
 
 __all__ = ["ScenePlan", "check_accuracy", "check_plan", "check_scene"]
 
@@ -155,13 +155,19 @@ def check_accuracy(given: object, scene: Scene) -> None:
         known = isinstance(given, str) and hasattr(Accuracy, given)
         cure = f"ck.Accuracy.{given}" if known else "ck.Accuracy(rtol=...)"
         raise PlanError(f"an Accuracy is needed beside the scene, got {given!r}; write {cure}")
-    kind: Literal["contact", "separation"]
-    kind = "contact" if isinstance(scene, ContactScene) else "separation"
-    if isinstance(given, Accuracy) and (name := given.foreign(kind)):
-        raise PlanError(
-            f"Accuracy.{name} = {getattr(given, name)!r} is not read by a {type(scene).__name__}: "
-            "leave it out"
+    if isinstance(given, Accuracy) and (name := given.unread(_kind_of(scene))):
+        reader = (
+            "the method active-set" if name == "max_iterations" else f"a {type(scene).__name__}"
         )
+        raise PlanError(
+            f"Accuracy.{name} = {getattr(given, name)!r} is not read by {reader}: leave it out"
+        )
+
+
+def _kind_of(scene: Scene) -> str:
+    """Name of the kind of scene of contactkit that a scene is, or is made from; empty for none."""
+    known = (ContactScene, SeparationScene, SlidingScene)
+    return next((kind.__name__ for kind in known if isinstance(scene, kind)), "")
 
 
 def _check_kind(given: object) -> None:

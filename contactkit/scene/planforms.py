@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import abc
 import math
+import os
 from typing import TYPE_CHECKING, Any, ClassVar
+from weakref import WeakKeyDictionary
 
 from attrs import Attribute, field, frozen
 
@@ -28,6 +30,7 @@ __all__ = [
     "Disc",
     "Ellipse",
     "Image",
+    "ImageFile",
     "Intersection",
     "Planform",
     "Polygon",
@@ -447,6 +450,11 @@ class Polygon(Planform):
         return 0.5 * abs(sum(ax * by - bx * ay for (ax, ay), (bx, by) in pairs))
 
 
+def _sizes(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    for size in value if isinstance(value, tuple) else (value,):
+        positive(owner, attribute, size)
+
+
 def _as_coverage(value: Any) -> Map:
     import numpy as np
 
@@ -480,11 +488,13 @@ class Image(Planform):
         repr=False,
         metadata=si("-")
         | {
-            "in_file": "compose the planform of others; an image is kept in Python and in result "
-            "files"
+            "in_file": "save the array as .npy and use ImageFile(path=..., pixel_size=...), in a "
+            "file shape = 'image-file'"
         },
     )
-    pixel_size: float | tuple[float, float] = field(converter=as_pair, metadata=si("m"))
+    pixel_size: float | tuple[float, float] = field(
+        converter=as_pair, validator=_sizes, metadata=si("m")
+    )
 
     @coverage.validator
     def _check_coverage(self, attribute: Attribute[Any], value: Map) -> None:
@@ -494,11 +504,6 @@ class Image(Planform):
             cure = "divide an image of 8 bits by 255"
             bad = float(value[~((value >= 0.0) & (value <= 1.0))][0])
             raise DescriptionError("Image.coverage", bad, "lie between 0 and 1", hint=cure)
-
-    @pixel_size.validator
-    def _check_size(self, attribute: Attribute[Any], value: Any) -> None:
-        for size in value if isinstance(value, tuple) else (value,):
-            positive(self, attribute, size)
 
     @property
     def pixel(self) -> tuple[float, float]:
@@ -516,7 +521,9 @@ class Image(Planform):
         (dy, dx), (left, _, low, _) = self.pixel, self.bounds
         rows, columns = np.broadcast_arrays((y - low) / dy - 0.5, (x - left) / dx - 0.5)
         level = distance_of_image(self.coverage, self.pixel)
-        return np.asarray(map_coordinates(level, [rows, columns], order=1, mode="nearest"))
+        places = np.stack([rows.ravel(), columns.ravel()])
+        found = map_coordinates(level, places, order=1, mode="nearest")
+        return np.asarray(found, dtype=float).reshape(rows.shape)
 
     @property
     def bounds(self) -> Bounds:
@@ -528,6 +535,73 @@ class Image(Planform):
     def area(self) -> float:
         """See `Planform.area`."""
         return float(self.coverage.sum()) * self.pixel[0] * self.pixel[1]
+
+
+def _as_name(value: Any) -> str:
+    if isinstance(value, str | os.PathLike):
+        return os.fsdecode(value)
+    raise DescriptionError("ImageFile.path", value, "be the name of a file")
+
+
+@frozen(kw_only=True)
+class ImageFile(Planform):
+    """A planform drawn in a file: a PNG image, white where the face is, or an npy array.
+
+    Parameters
+    ----------
+    path : str
+        The file; in Python from the working folder, in a scene file from the folder of that file,
+        which `load_scene` makes an absolute path. An npy file holds fractions from 0 to 1, truth
+        values or greys of 8 bits, the lowest row first; a PNG file needs the extra
+        ``contactkit[plot]``, and its upper row is at the largest y.
+    pixel_size : float or (float, float)
+        Size of a pixel [m]; a pair is (dy, dx).
+    inverted : bool
+        Whether the face is drawn dark on light.
+    checksum : str, optional
+        SHA-256 of the file; a file that differs is refused.
+    """
+
+    kind: ClassVar[str] = "image-file"
+
+    path: str = field(converter=_as_name)
+    pixel_size: float | tuple[float, float] = field(
+        converter=as_pair, validator=_sizes, metadata=si("m")
+    )
+    inverted: bool = field(default=False, validator=part(bool))
+    checksum: str | None = None
+
+    @property
+    def image(self) -> Image:
+        """The image in the file, which is read once for as long as it does not change."""
+        changed = os.stat(self.path).st_mtime_ns if os.path.exists(self.path) else 0
+        known = _IMAGES.get(self)
+        if known is None or known[0] != changed:
+            from ..reading.images import read_coverage
+
+            coverage = read_coverage(self.path, self.checksum)
+            drawn = 1.0 - coverage if self.inverted else coverage
+            _IMAGES.pop(self, None)  # so that the key is this planform, not an equal one
+            known = _IMAGES[self] = (changed, Image(coverage=drawn, pixel_size=self.pixel_size))
+        return known[1]
+
+    def level(self, x: Any, y: Any) -> NDArray[np.float64]:
+        """See `Planform.level`; reads the file."""
+        return self.image.level(x, y)
+
+    @property
+    def bounds(self) -> Bounds:
+        """See `Planform.bounds`; reads the file."""
+        return self.image.bounds
+
+    @property
+    def area(self) -> float:
+        """See `Planform.area`; reads the file."""
+        return self.image.area
+
+
+# A plan looks at an image several times; it goes with the last scene that has the planform.
+_IMAGES: WeakKeyDictionary[ImageFile, tuple[int, Image]] = WeakKeyDictionary()
 
 
 @frozen(kw_only=True)

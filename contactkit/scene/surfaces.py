@@ -13,8 +13,19 @@ from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError, PlanError
 from ..units import si
-from ..validators import Described, as_pair, as_tuple, finite, optional, part, positive, refuse
-from .faces import FaceHole, Recess, Vent
+from ..validators import (
+    Described,
+    as_pair,
+    as_tuple,
+    as_whole,
+    count,
+    finite,
+    optional,
+    part,
+    positive,
+    refuse,
+)
+from .faces import FaceHole, Recess, SealedHole, Vent
 from .planforms import Disc, Planform
 from .window import Grid
 
@@ -26,6 +37,7 @@ if TYPE_CHECKING:
     Mask = NDArray[np.bool_]
 
 __all__ = [
+    "FineRoughness",
     "Flat",
     "OwnGrid",
     "Paraboloid",
@@ -35,6 +47,7 @@ __all__ = [
     "Wave",
     "realise",
     "union_of",
+    "whole_heights",
 ]
 
 
@@ -192,9 +205,92 @@ def _curved(owner: object, attribute: Attribute[Any], value: Any) -> None:
 
 def _relief(owner: object, attribute: Attribute[Any], value: Any) -> None:
     part(Surface)(owner, attribute, value)
-    if not hasattr(value, "pixel_size") or not hasattr(value, "heights"):
-        cure = "heights of any surface on a grid of one's own: Heights(heights=..., pixel_size=...)"
-        raise refuse(owner, attribute, value, "be Heights", cure)
+    if isinstance(value, Flat):
+        cure = "a face is flat without one; its rim, tilt and recesses are fields of its own"
+        raise refuse(owner, attribute, value, "be a surface with heights", cure)
+
+
+@frozen(kw_only=True)
+class FineRoughness(Described):
+    """Roughness of a face far finer than the face: a patch that repeats, known by its flow factors.
+
+    The film then has the gap between the mean planes, and a conductivity along each axis, that of
+    the patch at this gap (homogenisation). Coarser roughness is a `relief`.
+
+    Parameters
+    ----------
+    surface : Surface
+        Any surface with heights, those of both faces together.
+    width : float, optional
+        Side of the square patch that repeats [m]; some ten correlation lengths of it say what it
+        does. None: a measured surface, which has its own.
+    pixels : int
+        Pixels along each side of a patch that is no measured one; 8 to its shortest wave.
+
+    Examples
+    --------
+    >>> ridges = FineRoughness(surface=Wave(amplitude=1e-6, wavelength=2e-5), width=2e-5, pixels=8)
+    >>> heights, pixel_size = ridges.patch()
+    >>> heights.shape, pixel_size
+    ((8, 8), (2.5e-06, 2.5e-06))
+    """
+
+    surface: Surface = field(validator=_relief)
+    width: float | None = field(default=None, validator=optional(positive), metadata=si("m"))
+    pixels: int = field(default=64, converter=as_whole, validator=count, metadata=si("-"))
+
+    def patch(self) -> tuple[Map, tuple[float, float]]:
+        """Heights of the patch [m] about their mean, (ny, nx), and its pixel (dy, dx) [m].
+
+        Raises
+        ------
+        DescriptionError
+            If the width is missing, is given beside that of a measured surface, or does not fit
+            the surface; if the patch has holes.
+        """
+        own = self.surface.own_grids
+        if own and self.width is not None:
+            expected = "be left out: a measured surface has its own"
+            raise DescriptionError("FineRoughness.width", self.width, expected, unit="m")
+        if not own and self.width is None:
+            expected = "be given where no surface is measured"
+            raise DescriptionError("FineRoughness.width", None, expected, unit="m")
+        grid = _one_grid(own, "FineRoughness.surface")
+        if grid is None:
+            side = (self.width or 0.0) / self.pixels
+            grid = Grid((self.pixels, self.pixels), (side, side), True)
+        heights = whole_heights(self.surface, grid, "FineRoughness.pixels")
+        return heights - heights.mean(), grid.pixel_size
+
+
+def _one_grid(own: frozenset[OwnGrid], field: str) -> Grid | None:
+    """Grid of the height maps of a surface; None of a recipe, which takes any."""
+    if len(own) > 1:
+        raise DescriptionError(
+            field, sorted(own), "have height maps of one grid, (shape, pixel size [m])"
+        )
+    return next((Grid(shape, pixel, True) for shape, pixel in own), None)
+
+
+def whole_heights(surface: Surface, grid: Grid, finer: str) -> Map:
+    """Heights of a surface of a face [m]; `finer` is the field that gives finer pixels.
+
+    Raises
+    ------
+    DescriptionError
+        If it has holes, or waves that the pixels do not resolve.
+    """
+    if surface.void_pixels is not None:
+        raise DescriptionError(
+            type(surface).__name__,
+            surface,
+            "have heights at every pixel, as a film has a gap there",
+        )
+    for wave in surface.shortest_waves(grid):
+        if wave.length < 2.0 * wave.pixel * (1.0 - 1e-12):
+            expected = f"be at least two pixels, {2.0 * wave.pixel:g} m"
+            raise DescriptionError(wave.field, wave.length, expected, unit="m", hint=finer)
+    return realise(surface, grid)
 
 
 @frozen(kw_only=True)
@@ -217,9 +313,14 @@ class Flat(Surface):
         Slopes along x and y by which the face recedes from the other one [rad].
     crown_radius : float, optional
         Radius of curvature of a face that is slightly domed [m]; negative: hollow.
-    relief : Heights, optional
-        Height map on top of all this, such as measured roughness, its middle at the origin; beyond
-        its edge it is as high as there.
+    relief : Surface, optional
+        Any surface with heights on top of all this, such as measured roughness, its middle at the
+        origin. A height map is beyond its edge as high as there; other surfaces are made for the
+        rectangle about the origin that holds the face, in whose lower left corner a wave has a
+        crest.
+    roughness : FineRoughness, optional
+        Roughness far finer than the face, by its flow factors: of an even face, whose gap then
+        counts from the mean plane.
 
     Notes
     -----
@@ -247,10 +348,11 @@ class Flat(Surface):
     )
     crown_radius: float | None = field(default=None, validator=optional(_curved), metadata=si("m"))
     relief: Surface | None = field(default=None, validator=optional(_relief))
+    roughness: FineRoughness | None = field(default=None, validator=optional(part(FineRoughness)))
 
     @holes.validator
     def _check_holes(self, attribute: Attribute[Any], value: tuple[Any, ...]) -> None:
-        if not all(isinstance(hole, FaceHole) for hole in value):
+        if not all(isinstance(hole, Vent | SealedHole) for hole in value):
             raise refuse(self, attribute, value, "hold a Vent or a SealedHole each")
 
     @recesses.validator
@@ -281,9 +383,10 @@ class Flat(Surface):
 
     @property
     def is_even(self) -> bool:
-        """Whether it has one height everywhere, and no hole."""
+        """Whether it has one height everywhere, no roughness, and no hole."""
         is_level = self.tilt == (0.0, 0.0) and self.crown_radius is None and self.relief is None
-        return is_level and not self.holes and not self.recesses
+        is_smooth = self.roughness is None
+        return is_level and is_smooth and not self.holes and not self.recesses
 
     @property
     def is_disc(self) -> bool:

@@ -2,7 +2,8 @@
 
 study        `study`: a scene solved over a grid of parameter values.
 sensitivity  `sensitivity`: what each assumption does to a quantity over its plausible range.
-table        The result of a study: points, columns, table and file.
+columns      Base class of studies: columns over the product of the parameters, figures, file.
+table        The result of a study: points, bands, table.
 stream       `stream_study`: a study of many points, written to a file as they are solved.
 study_file   File of such a study, a SQLite database, read column by column.
 estimate     `plan_study`: points, time, memory and disk of a study, from a few trial points.

@@ -156,7 +156,7 @@ def plan_study(
     check_whole("trials", trials, 1)
     check_whole("workers", workers, 1)
     accuracy = accuracy if accuracy is not None else Accuracy.standard
-    varied = check_axes(scene, parameters, accuracy)
+    varied, sources = check_axes(scene, parameters, accuracy)
     n_points = math.prod(len(axis.values) for axis in varied)
     n = min(trials, n_points)
     places = sorted({round(i * (n_points - 1) / max(n - 1, 1)) for i in range(n)})
@@ -171,7 +171,7 @@ def plan_study(
     points = [done.point for done in found]
     if all(point.status in ("refused", "failed") for point in points):
         raise ContactkitError(f"no trial point could be solved: {points[0].message}")
-    with StudyWriter(":memory:", scene, accuracy, varied) as writer:
+    with StudyWriter(":memory:", scene, accuracy, varied, sources) as writer:
         empty = writer.n_bytes
         rows = [found[i % len(found)] for i in range(min(_COPIES, n_points))]
         writer.write([one._replace(place=i) for i, one in enumerate(rows)])

@@ -172,7 +172,7 @@ def paths_of(owner: Any) -> Iterator[str]:
             yield name
 
 
-def combinations(varied: tuple[Axis, ...]) -> list[dict[str, Any]]:
+def combinations(varied: Sequence[Axis]) -> list[dict[str, Any]]:
     """Values by path of every point, the last axis fastest."""
     paths = [path for axis in varied for path in axis.paths]
     product = itertools.product(*(axis.values for axis in varied))
@@ -230,7 +230,9 @@ def _rebuilt(owner: Any, tree: Tree | _Leaf) -> Any:
             items[i] = items[i] if made is True else made
         return tuple(item for item in items if item is not False)  # an effect that is left out
     changes = {name: _rebuilt(getattr(owner, name), below) for name, below in tree.items()}
-    return attrs.evolve(owner, **changes)
+    made = attrs.evolve(owner, **changes)
+    # A value that is the usual one is given all the same.
+    return made.with_given(changes) if isinstance(made, Accuracy) else made
 
 
 def _axis(scene: object, accuracy: Accuracy, key: str, values: Iterable[Any]) -> Axis:
@@ -333,7 +335,7 @@ def _lost(step: _Step, choices: list[str], origin: str) -> DescriptionError:
 
 
 def _fields(owner: Any) -> list[str]:
-    return [a.name for a in attrs.fields(type(owner)) if a.init]
+    return [a.name for a in attrs.fields(type(owner)) if a.init and a.name[0] != "_"]
 
 
 def _choices(owner: Any) -> dict[str, Any]:

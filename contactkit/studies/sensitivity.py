@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from functools import partial
 from html import escape
 from itertools import chain
@@ -16,12 +17,13 @@ from attrs import field, frozen
 from ..accuracy import Accuracy
 from ..errors import ContactkitError, DescriptionError, nearest
 from ..files.csv_rows import write_rows
+from ..scene.curve import Curve
 from ..scene.description import value_text
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
-from ..scene.tabular import Contents, Quantity, Tabular
 from ..units import quantity_text
+from .columns import as_text
 from .paths import axes, changed, joined, value_at
-from .study import Study, study
+from .study import Study, check_effects, study
 
 __all__ = ["Influence", "Range", "Sensitivity", "sensitivity"]
 
@@ -88,6 +90,16 @@ class Influence:
         """Whether there is no result somewhere in the range."""
         return any(map(math.isnan, self.results))
 
+    def tried(self) -> dict[str, Any]:
+        """Values, results and messages as floats and texts, with the unit of the values."""
+        plain = [v if isinstance(v, bool | int | float | str) else as_text(v) for v in self.values]
+        return {
+            "unit": self.unit,
+            "values": plain,
+            "results": list(self.results),
+            "messages": list(self.messages),
+        }
+
     def extent(self, base: float) -> tuple[float, float]:
         """Least and greatest result over the range, that of the scene as it is among them."""
         known = [one for one in (base, *self.results) if not math.isnan(one)]
@@ -100,24 +112,60 @@ class Influence:
 
 
 @frozen(eq=False)
-class Sensitivity(Tabular):
+class Sensitivity(Curve):
     """Answer of a scene, and what each assumption does to it, the most influential first.
+
+    Its columns are over the assumptions; ``parts["influences"]`` holds every value that was tried
+    with its result, by path, also in a file.
 
     Attributes
     ----------
-    quantity, unit : str
-        Name of the quantity, and its unit.
+    quantity : str
+        Name of the quantity.
+    quantity_unit : str
+        Its unit.
     base : float
         Answer of the scene as it is.
     influences : tuple of Influence
         One for each assumption, sorted by the change of the quantity over its range; first those
         with a value for which there is no result.
+    sources : tuple of str
+        Sources of the equations; none of a device, whose answer is that of a function.
     """
 
     quantity: str
-    unit: str
+    quantity_unit: str
     base: float
     influences: tuple[Influence, ...] = field(repr=False)
+    sources: tuple[str, ...] = field(default=(), repr=False)
+
+    @property
+    def axis(self) -> str:
+        """See `Curve.axis`."""
+        return "assumption"
+
+    @property
+    def title(self) -> str:
+        """See `Curve.title`."""
+        return f"sensitivity of {self.quantity}"
+
+    @property
+    def status(self) -> str:
+        """``complete``, or ``incomplete`` if there is no result somewhere in a range."""
+        gaps = math.isnan(self.base) or any(one.has_gaps for one in self.influences)
+        return "incomplete" if gaps else "complete"
+
+    @property
+    def message(self) -> str:
+        """The answer of the scene as it is, and ranges in which there is none."""
+        gaps = [one.path for one in self.influences if one.has_gaps]
+        lacking = f"; none somewhere in the range of {', '.join(gaps)}" if gaps else ""
+        return f"{self.quantity} = {self._text(self.base)}{lacking}"
+
+    @property
+    def parts(self) -> Mapping[str, Any]:
+        """See `Curve.parts`."""
+        return {"influences": {one.path: one.tried() for one in self.influences}}
 
     def influence(self, path: str) -> Influence:
         """Return what the assumption of a path does.
@@ -132,8 +180,33 @@ class Sensitivity(Tabular):
             raise DescriptionError("path", path, "be one that varies", hint=nearest(path, known))
         return known[path]
 
-    def table(self) -> str:
-        """Return the assumptions with their ranges and the results at both ends as text."""
+    def table(self) -> dict[str, tuple[Any, str]]:
+        """Return assumptions, their ranges as text and the results at the ends and extremes."""
+        rows, unit = self.influences, self.quantity_unit
+        extents = np.array([one.extent(self.base) for one in rows]).reshape(-1, 2)
+
+        def texts(values: Iterable[Any]) -> tuple[Any, str]:
+            cells = [value_text(v, one.unit) for v, one in zip(values, rows, strict=True)]
+            return np.array(cells), "-"
+
+        return {
+            "assumption": (np.array([one.path for one in rows]), "-"),
+            "low": texts(one.values[0] for one in rows),
+            "as_it_is": texts(one.base for one in rows),
+            "high": texts(one.values[-1] for one in rows),
+            "result_low": (np.array([one.results[0] for one in rows]), unit),
+            "result_high": (np.array([one.results[-1] for one in rows]), unit),
+            "least": (extents[:, 0], unit),
+            "greatest": (extents[:, 1], unit),
+            "reason": (np.array([one.reason for one in rows]), "-"),
+        }
+
+    def scalars(self) -> dict[str, tuple[float, str]]:
+        """Return the answer of the scene as it is."""
+        return {"base": (self.base, self.quantity_unit)}
+
+    def __str__(self) -> str:
+        """Return the assumptions with their ranges and the results at both ends as a table."""
         heads = ("assumption", "low", "as it is", "high", "result low", "high", "change")
         rows = [heads, *(self._cells(one) for one in self.influences)]
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
@@ -153,38 +226,11 @@ class Sensitivity(Tabular):
         return (one.path, *(value_text(v, one.unit) for v in values), *map(self._text, results))
 
     def _text(self, result: float) -> str:
-        return quantity_text(result, self.unit) if math.isfinite(result) else "none"
-
-    def __str__(self) -> str:
-        """Return the table."""
-        return self.table()
+        return quantity_text(result, self.quantity_unit) if math.isfinite(result) else "none"
 
     def _repr_html_(self) -> str:
         """The table in a notebook."""
-        return f"<pre>{escape(self.table())}</pre>"
-
-    def contents(self) -> Contents:
-        """Return assumptions, their ranges as text and the results at the ends and extremes."""
-        rows, axis = self.influences, ("assumption",)
-        ends = np.array([one.extent(self.base) for one in rows]).reshape(-1, 2)
-
-        def texts(values: Iterable[Any]) -> Quantity:
-            cells = [value_text(v, one.unit) for v, one in zip(values, rows, strict=True)]
-            return Quantity(axis, np.array(cells), "-")
-
-        found = {
-            "assumption": Quantity(axis, np.array([one.path for one in rows]), "-"),
-            "low": texts(one.values[0] for one in rows),
-            "as_it_is": texts(one.base for one in rows),
-            "high": texts(one.values[-1] for one in rows),
-            "result_low": Quantity(axis, np.array([o.results[0] for o in rows]), self.unit),
-            "result_high": Quantity(axis, np.array([o.results[-1] for o in rows]), self.unit),
-            "least": Quantity(axis, ends[:, 0], self.unit, "least result in the range"),
-            "greatest": Quantity(axis, ends[:, 1], self.unit, "greatest result in the range"),
-            "reason": Quantity(axis, np.array([one.reason for one in rows]), "-"),
-            "base": Quantity((), self.base, self.unit, self.quantity),
-        }
-        return Contents(axis, found, {"title": f"sensitivity of {self.quantity}"})
+        return f"<pre>{escape(str(self))}</pre>"
 
     def save_csv(self, path: str | Path) -> Path:
         """Write every result to a CSV file, a row for each value, atomically.
@@ -194,7 +240,7 @@ class Sensitivity(Tabular):
         path : str or Path
             The file; its suffix becomes ``.csv``.
         """
-        heads = ("assumption", "value", "value_unit", f"{self.quantity} [{self.unit}]")
+        heads = ("assumption", "value", "value_unit", f"{self.quantity} [{self.quantity_unit}]")
         rows = [["as it is", "", "", f"{self.base:.6g}", "", ""]]
         for one in self.influences:
             for value, found, message in zip(one.values, one.results, one.messages, strict=True):
@@ -292,11 +338,15 @@ def sensitivity(
         made, unit = _studied(scene, rows, quantity, partial(run, accuracy=accuracy))
         results = made.column(quantity).tolist()
         messages = [point.message if point.has_failed else "" for point in made.points]
-        return _collected(assumptions, results, messages, (quantity, unit))
+        return _collected(assumptions, results, messages, (quantity, unit), made.sources)
     _unused(accuracy=accuracy, workers=None if workers == 1 else workers)
     results, messages = _asked(scene, rows, quantity, progress)
     name = getattr(quantity, "__name__", "quantity").replace("_", " ")
-    return _collected(assumptions, results, messages, (name, unit or "-"))
+    sources: tuple[str, ...] = ()
+    if isinstance(scene, ContactScene | SeparationScene | SlidingScene):
+        with suppress(ContactkitError):  # the answer need not be that of a plan
+            sources = check_effects(scene, settings)
+    return _collected(assumptions, results, messages, (name, unit or "-"), sources)
 
 
 def _studied(
@@ -321,6 +371,7 @@ def _collected(
     results: list[float],
     messages: list[str],
     named: tuple[str, str],
+    sources: tuple[str, ...],
 ) -> Sensitivity:
     """Answers in the order of the rows, as influences."""
     found, at = [], 1
@@ -330,7 +381,7 @@ def _collected(
         at = end
     base = results[0]
     found.sort(key=lambda one: -one.swing(base))
-    return Sensitivity(*named, base, tuple(found))
+    return Sensitivity(*named, base, tuple(found), sources)
 
 
 def _checked(ranges: Mapping[Any, Range | tuple[Any, Any]], n: int) -> dict[str, Range]:

@@ -11,7 +11,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import attrs
 from attrs import field, frozen
 
 from ..accuracy import Accuracy
@@ -19,6 +18,7 @@ from ..errors import DescriptionError
 from ..files.scenes import write_whole
 from ..files.unstructure import unstructure
 from ..reading.texts import from_json, read_text
+from ..scene.planforms import ImageFile
 from ..scene.rough_surfaces import Measured
 from ..scene.scales import Scale
 
@@ -89,16 +89,16 @@ def scene_key(scene: Scene, accuracy: Accuracy) -> str:
     tables = unstructure(scene, {}, for_key=True)
     tables.pop("name", None)  # a title does not change results
     _name_by_content(tables)
-    what = [_FORMAT, __version__, tables, attrs.asdict(accuracy)]
+    what = [_FORMAT, __version__, tables, accuracy.values]
     return hashlib.sha256(json.dumps(what, sort_keys=True).encode()).hexdigest()[:40]
 
 
 def _name_by_content(value: Any) -> None:
-    """Name height maps in tables by what their files hold, wherever these are."""
+    """Name height maps and images in tables by what their files hold, wherever these are."""
     for item in value.values() if isinstance(value, dict) else value:
         if isinstance(item, dict | list):
             _name_by_content(item)
-    if isinstance(value, dict) and value.get("shape") == Measured.kind:
+    if isinstance(value, dict) and value.get("shape") in (Measured.kind, ImageFile.kind):
         value["path"] = _content(value["path"])
 
 

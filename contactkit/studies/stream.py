@@ -16,9 +16,18 @@ from ..accuracy import Accuracy
 from ..contact.chain import downwards
 from ..errors import ContactkitError, ValidityWarning
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
-from .paths import Axis, Parameters, Scene, axes, changed, values_at
+from .paths import Axis, Parameters, Scene, axes, changed, combinations, values_at
 from .run import Done, Piece, Task
-from .study import RETRIES, check_effects, check_kind, check_whole, slots, spread
+from .study import (
+    RETRIES,
+    check_effects,
+    check_kind,
+    check_whole,
+    slots,
+    sources_of,
+    spread,
+    varies_effects,
+)
 from .study_file import StudyFile, StudyWriter
 
 __all__ = ["check_axes", "stream_study"]
@@ -102,10 +111,10 @@ def stream_study(
     check_whole("workers", workers, 1)
     check_whole("retries", retries, 0)
     accuracy = accuracy if accuracy is not None else Accuracy.standard
-    varied = check_axes(scene, parameters, accuracy)
+    varied, sources = check_axes(scene, parameters, accuracy)
     n_points = math.prod(len(axis.values) for axis in varied)
     n_slots = slots(client, workers)
-    with StudyWriter(path, scene, accuracy, varied) as writer:
+    with StudyWriter(path, scene, accuracy, varied, sources) as writer:
 
         def report() -> None:
             if progress is not None:
@@ -131,8 +140,15 @@ def stream_study(
     return StudyFile(writer.path)
 
 
-def check_axes(scene: Scene, parameters: Parameters, accuracy: Accuracy) -> tuple[Axis, ...]:
+def check_axes(
+    scene: Scene, parameters: Parameters, accuracy: Accuracy
+) -> tuple[tuple[Axis, ...], tuple[str, ...]]:
     """Parse the parameters and check each value, with the first values of the others.
+
+    Returns
+    -------
+    tuple of Axis, tuple of str
+        The parameters, and the sources of the equations of all points.
 
     Raises
     ------
@@ -146,7 +162,9 @@ def check_axes(scene: Scene, parameters: Parameters, accuracy: Accuracy) -> tupl
         for row in axis.values:
             changed(scene, accuracy, first | dict(zip(axis.paths, row, strict=True)))
     check_effects(*changed(scene, accuracy, first))
-    return varied
+    chosen = combinations([axis for axis in varied if varies_effects([axis])])
+    points = (changed(scene, accuracy, first | values) for values in chosen)
+    return varied, sources_of(points, {})
 
 
 def _size(length: int, n_points: int, n_slots: int) -> int:

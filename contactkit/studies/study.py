@@ -27,7 +27,7 @@ from ..planning import plan
 from ..scene.plan import ScenePlan
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..scene.scenes import Scene as AnyScene
-from .paths import Axis, Parameters, Scene, axes, changed, combinations
+from .paths import Axis, Changed, Parameters, Scene, axes, changed, combinations
 from .run import Done, Piece, Task, put
 from .spread import run_here, run_in_processes, run_on_client
 from .store import Store, StudyPoint
@@ -359,16 +359,25 @@ class _Run:
 
     def _sources(self) -> tuple[str, ...]:
         """Sources of all points; those with the same choices have the same."""
-        for task in self.tasks if self._varies_effects else self.tasks[:1]:
-            scene, accuracy = changed(self.scene, self.accuracy, task.values)
-            if (choices := _choices(scene)) not in self.sources:
-                with suppress(ContactkitError):  # a point that is refused has no plan
-                    self.sources[choices] = check_effects(scene, accuracy)
-        return tuple(dict.fromkeys(line for one in self.sources.values() for line in one))
+        tasks = self.tasks if varies_effects(self.varied) else self.tasks[:1]
+        points = (changed(self.scene, self.accuracy, task.values) for task in tasks)
+        return sources_of(points, self.sources)
 
-    @property
-    def _varies_effects(self) -> bool:
-        return any(path.startswith("effects") for axis in self.varied for path in axis.paths)
+
+def varies_effects(varied: Iterable[Axis]) -> bool:
+    """Whether a parameter is one of the effects, so that points may have sources of their own."""
+    return any(path.startswith("effects") for axis in varied for path in axis.paths)
+
+
+def sources_of(
+    points: Iterable[Changed], known: dict[tuple[object, ...], tuple[str, ...]]
+) -> tuple[str, ...]:
+    """Sources of points, beside those known by their choices."""
+    for scene, accuracy in points:
+        if (choices := _choices(scene)) not in known:
+            with suppress(ContactkitError):  # a point that is refused has no plan
+                known[choices] = check_effects(scene, accuracy)
+    return tuple(dict.fromkeys(line for one in known.values() for line in one))
 
 
 def _choices(scene: Scene) -> tuple[object, ...]:

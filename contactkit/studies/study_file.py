@@ -8,7 +8,7 @@ import json
 import math
 import sqlite3
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,19 +16,17 @@ import numpy as np
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, ValidityWarning, nearest
-from ..export.contents import Contents
 from ..files.csv_rows import write_rows
+from ..frozen import FrozenDict
 from ..reading.limits import LIMITS, check_limit, check_size, limit_of
 from ..reading.texts import from_json
+from .columns import StudyColumns, as_text
 from .paths import Axis, Scene
 from .run import Done
 from .store import FAILED, scene_key
-from .table import as_text, study_contents
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-    from pandas import DataFrame
-    from xarray import Dataset
 
 __all__ = ["FailedRow", "StudyFile", "StudyWriter"]
 
@@ -57,7 +55,7 @@ class FailedRow(NamedTuple):
     message: str
 
 
-class StudyFile:
+class StudyFile(StudyColumns):
     """A study in a file: columns over its points, read when they are asked for.
 
     Parameters
@@ -73,12 +71,27 @@ class StudyFile:
         Paths of each parameter, several where they vary together.
     units : mapping of str to str
         Unit of each column.
+    sources : tuple of str
+        Sources of the equations of all points.
+    number_names : tuple of str
+        Names of the scalar results, without seconds and counts.
 
     Raises
     ------
     DescriptionError
         If it is no file of a study.
+
+    Notes
+    -----
+    `column`, `scalars` and `save_csv` go through the file row by row; `save`, `contents`, `lines`
+    and the figures hold all columns in memory.
     """
+
+    shape: tuple[int, ...] = ()
+    paths: tuple[tuple[str, ...], ...] = ()
+    units: Mapping[str, str] = FrozenDict()
+    sources: tuple[str, ...] = ()
+    number_names: tuple[str, ...] = ()
 
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path).with_suffix(".sqlite")
@@ -88,8 +101,13 @@ class StudyFile:
         with _Closing(self.path, "TEXT_BYTES") as base:
             if problem := _foreign(base):
                 raise _no_study(self.path, problem)
-            row = base.execute("SELECT value FROM header WHERE key = 'axes'").fetchone()
-            axes = _checked_axes(from_json(str(row and row[0]), str(self.path)), self.path)
+            header = dict(base.execute("SELECT key, value FROM header"))
+        axes = _checked_axes(from_json(str(header.get("axes")), str(self.path)), self.path)
+        # A file of before version 0.2 has neither.
+        self.sources, self._counts = (
+            _checked_texts(from_json(str(header.get(key, "[]")), str(self.path)), self.path)
+            for key in ("sources", "counts")
+        )
         with self._opened() as base:
             units = dict(base.execute("SELECT name, unit FROM units"))
         self.paths = tuple(tuple(axis["paths"]) for axis in axes)
@@ -102,20 +120,50 @@ class StudyFile:
         self.units: dict[str, str] = varied | units
         if not all(isinstance(text, str) for pair in self.units.items() for text in pair):
             raise _no_study(self.path, "a unit is no text")
+        own = {*varied, *self._counts, "seconds"}
+        self.number_names = tuple(name for name in self.units if name not in own)
 
     def _opened(self) -> _Closing:
         return _Closing(self.path, "CELL_BYTES")
 
     @property
-    def n_points(self) -> int:
-        """Number of points of the study."""
-        return math.prod(self.shape)
+    def status(self) -> str:
+        """``complete``, or ``incomplete`` if a point has no solution or is not solved yet."""
+        return "complete" if self.n_done == self.n_points and not self.n_failed else "incomplete"
+
+    @property
+    def message(self) -> str:
+        """Number of points and parameters, of those left and of those without a solution."""
+        left, failed = self.n_points - self.n_done, self.n_failed
+        return (
+            self._over
+            + (f"; {left} not solved yet" if left else "")
+            + (f"; {failed} without a solution" if failed else "")
+        )
+
+    def scalars(self) -> dict[str, tuple[float, str]]:
+        """Return numbers of the whole study: points, seconds and counts, added up."""
+        summed = [name for name in ("seconds", *self._counts) if name in self.units]
+        return {
+            "n_points": (self.n_points, "-"),
+            "n_done": (self.n_done, "-"),
+            "n_failed": (self.n_failed, "-"),
+            **{n: (float(np.nansum(self.column(n))), self.units[n]) for n in summed},
+        }
 
     @property
     def n_done(self) -> int:
         """Number of points that are in the file."""
         with self._opened() as base:
             return int(base.execute("SELECT count(*) FROM points").fetchone()[0])
+
+    @property
+    def n_failed(self) -> int:
+        """Number of points in the file without a solution."""
+        marks = ", ".join("?" * len(FAILED))
+        wanted = f"SELECT count(*) FROM points WHERE status IN ({marks})"
+        with self._opened() as base:
+            return int(base.execute(wanted, FAILED).fetchone()[0])
 
     def column(self, name: str) -> NDArray[Any]:
         """Return one column over all points, as `Study.column`; nan where there is no value.
@@ -156,10 +204,6 @@ class StudyFile:
             return place
         raise _no_study(self.path, f"{place!r:.40} is the place of no point")
 
-    def unit(self, name: str) -> str:
-        """Return the unit of a column; ``-`` for none."""
-        return self.units[name]
-
     def failed(self) -> Iterator[FailedRow]:
         """Yield the points without a solution."""
         marks = ", ".join("?" * len(FAILED))
@@ -181,22 +225,6 @@ class StudyFile:
         return {
             p: self._values[p][int(i)] for i, ps in zip(at, self.paths, strict=True) for p in ps
         }
-
-    def contents(self) -> Contents:
-        """Return all columns over the parameters, as `Study.contents`."""
-        return study_contents(self)
-
-    def to_xarray(self) -> Dataset:
-        """Return all columns as a dataset of xarray; ``to_netcdf`` of it writes a file."""
-        from ..export.datasets import dataset
-
-        return dataset(self.contents())
-
-    def to_dataframe(self) -> DataFrame:
-        """Return all columns as a data frame of pandas, with a row for each point."""
-        from ..export.frames import frame
-
-        return frame(self.contents())
 
     def save_csv(self, path: str | Path) -> Path:
         """Write all columns to a CSV file, row by row and atomically."""
@@ -293,6 +321,13 @@ def _checked_axes(axes: Any, path: Path) -> list[dict[str, Any]]:
     return list(axes)
 
 
+def _checked_texts(texts: Any, path: Path) -> tuple[str, ...]:
+    """Return a list of texts of the header."""
+    if not (isinstance(texts, list) and all(isinstance(text, str) for text in texts)):
+        raise _no_study(path, "its sources or counts are no list of texts")
+    return tuple(texts)
+
+
 def _is_row(row: Any, width: int) -> bool:
     """Whether it is a row of as many numbers, texts or truth values as an axis has paths."""
     return (
@@ -312,7 +347,12 @@ class StudyWriter:
     """
 
     def __init__(
-        self, path: str | Path, scene: Scene, accuracy: Accuracy, varied: Sequence[Axis]
+        self,
+        path: str | Path,
+        scene: Scene,
+        accuracy: Accuracy,
+        varied: Sequence[Axis],
+        sources: Sequence[str],
     ) -> None:
         self.path = Path(path).with_suffix(".sqlite") if str(path) != ":memory:" else Path(path)
         self.path.parent.mkdir(parents=True, exist_ok=True)
@@ -331,6 +371,7 @@ class StudyWriter:
             "format": str(_FORMAT),
             "key": f"{scene_key(scene, accuracy)} {digest}",
             "axes": text,
+            "sources": json.dumps(sources),
         }
         self._done = np.zeros(math.prod(len(axis.values) for axis in varied), dtype=bool)
         is_new = not (self.path.is_file() and self.path.stat().st_size)
@@ -351,6 +392,8 @@ class StudyWriter:
             raise
         _guard(self._base, "CELL_BYTES")
         self._columns = {row[1] for row in self._base.execute("PRAGMA table_info(points)")}
+        found = self._base.execute("SELECT value FROM header WHERE key = 'counts'").fetchone()
+        self._counts = tuple(from_json(found[0], self.path.name)) if found else ()
         self._written = time.monotonic()
 
     def _make(self) -> None:
@@ -437,6 +480,7 @@ class StudyWriter:
             for name, (_, unit) in numbers.items():
                 if name not in self._columns:
                     self._add(name, unit)
+            self._count(point.counts)
             # Of a solved point the numbers are kept; of its notes, which models are outside.
             message = point.message[:_TEXT] if point.has_failed else ""
             notes = "; ".join(dict.fromkeys(note.partition(" = ")[0] for note in point.notes))
@@ -453,6 +497,13 @@ class StudyWriter:
         self._base.execute(f"ALTER TABLE points ADD COLUMN {_quoted(name)} REAL")
         self._base.execute("INSERT OR REPLACE INTO units VALUES (?, ?)", (name, unit))
         self._columns.add(name)
+
+    def _count(self, names: Iterable[str]) -> None:
+        """Write which columns are counts, once they are new."""
+        if any(name not in self._counts for name in names):
+            self._counts = tuple(dict.fromkeys((*self._counts, *names)))
+            row = ("counts", json.dumps(self._counts))
+            self._base.execute("INSERT OR REPLACE INTO header VALUES (?, ?)", row)
 
     @property
     def n_bytes(self) -> int:

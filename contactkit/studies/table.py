@@ -3,51 +3,35 @@
 from __future__ import annotations
 
 import math
-import textwrap
 from collections.abc import Mapping
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 from attrs import evolve, field, frozen
 
-from ..errors import DescriptionError, NotSimulatedError, nearest
-from ..export.contents import Contents, Quantity
+from ..errors import DescriptionError, NotSimulatedError
 from ..files.csv_rows import write_rows
-from ..files.curves import SavedCurve, save_curve
-from ..frozen import FrozenDict
-from ..scene.answer import Answer
 from ..scene.result import Result
 from ..scene.scales import Scale
-from .bands import BAND, RUNS, banded_point, banded_units, seed_axes
+from .bands import RUNS, banded_point, banded_units, seed_axes
+from .columns import StudyColumns, as_text, labels_of
 from .store import StudyPoint
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-__all__ = ["Study", "StudyLine", "as_text", "study_contents"]
+__all__ = ["Study"]
 
 _MAX_COLUMNS = 6  # of a table without named columns; more do not fit beside the parameters
-_ROUND_OFF = 1e-6  # change over the largest value; a solve is right to its rtol of 1e-8 or better
-# Ends of names that tables and figures leave out: measures of the solve, and the ends of bands.
-_NOT_TELLING = ("residual", "energy", *(end for end in BAND if end))
-_WIDEST = 40  # characters of a value without a name; two of them fit into a line of a terminal
-
-
-class StudyLine(NamedTuple):
-    """Points of a study along one parameter: the values of the others as text, and the columns."""
-
-    label: str
-    columns: Mapping[str, NDArray[Any]]
-
 
 R_co = TypeVar("R_co", bound=Result, covariant=True)
 
 
 @frozen(eq=False)
-class Study(Answer, Generic[R_co]):
+class Study(StudyColumns, Generic[R_co]):
     """Points of a study, in the order of the product of the parameters, the last one fastest.
 
     Attributes
@@ -82,12 +66,9 @@ class Study(Answer, Generic[R_co]):
     @property
     def message(self) -> str:
         """Number of points and parameters, and what the points have to remark."""
-        over = ", ".join(_ends(paths[0])[0] for paths in self.paths)
         lacking = f"; {len(self.failed)} without a solution" if self.failed else ""
         noted = sum(1 for point in self.points if point.notes)
-        return f"{len(self.points)} points over {over}{lacking}" + (
-            f"; {noted} with notes" if noted else ""
-        )
+        return self._over + lacking + (f"; {noted} with notes" if noted else "")
 
     def scalars(self) -> dict[str, tuple[float, str]]:
         """Return numbers of the whole study: points, seconds and counts, added up."""
@@ -100,10 +81,6 @@ class Study(Answer, Generic[R_co]):
             "seconds": (sum(point.seconds for point in self.points), "s"),
             **{name: (total, "-") for name, total in totals.items()},
         }
-
-    def cite(self) -> str:
-        """Return the sources of the equations, one to a line."""
-        return "\n".join(self.sources)
 
     @property
     def results(self) -> tuple[R_co | None, ...]:
@@ -152,71 +129,14 @@ class Study(Answer, Generic[R_co]):
         column[:] = values
         return column
 
-    def unit(self, name: str) -> str:
-        """Return the unit of a column; ``-`` for none.
-
-        Raises
-        ------
-        DescriptionError
-            If there is no such column.
-        """
-        self._known(name)
-        return self.units[name]
-
-    def _known(self, name: str) -> None:
-        if name not in self.units:
-            raise DescriptionError(
-                "column", name, "be one of the study", hint=nearest(name, list(self.units))
-            )
-
-    def contents(self) -> Contents:
-        """Return all columns over the parameters, each an axis with its shortest name.
-
-        Values that are no numbers, such as liquids, are given by their names. An axis along which
-        several parameters vary together has the name of the first.
-        """
-        return study_contents(self)
+    @property
+    def number_names(self) -> tuple[str, ...]:
+        """Names of the scalar results, without seconds and counts."""
+        return tuple(name for name in self.points[0].scalars if name not in self._varied)
 
     def _repr_html_(self) -> str:
         """The table in a notebook."""
         return f"<pre>{escape(self.table())}</pre>"
-
-    def lines(self, along: str | None = None) -> tuple[StudyLine, ...]:
-        """Return the points as lines along one parameter, one for each combination of the others.
-
-        Parameters
-        ----------
-        along : str, optional
-            Path of that parameter, or its beginning, such as ``loading``; the last parameter if
-            none is given or none fits.
-        """
-        wanted = along or self.paths[-1][0]
-        fits = [i for i, paths in enumerate(self.paths) if any(p.startswith(wanted) for p in paths)]
-        axis = fits[0] if fits else len(self.shape) - 1
-        places = np.moveaxis(np.arange(len(self.points)).reshape(self.shape), axis, -1)
-        # A parameter of one value does not distinguish lines.
-        others = [
-            p for i, ps in enumerate(self.paths) if i != axis and self.shape[i] > 1 for p in ps
-        ]
-        columns = {name: self.column(name) for name in self.units}
-        return tuple(
-            StudyLine(
-                ", ".join(self._named(p, self.points[line[0]].values[p]) for p in others),
-                {name: column[line] for name, column in columns.items()},
-            )
-            for line in places.reshape(-1, self.shape[axis])
-        )
-
-    def _named(self, path: str, value: Any) -> str:
-        """A parameter in a legend: numbers with their name and unit, others as they are."""
-        name = _ends(path)[0].replace("_", " ")
-        if isinstance(value, bool):
-            return name if value else f"not {name}"
-        if not isinstance(value, int | float):
-            return as_text(value)
-        unit = self.units[path]
-        end = "" if unit == "-" else f" {unit}"
-        return f"{name} {as_text(value)}{end}"
 
     def bands(self, over: str | None = None) -> Study[R_co]:
         """Return the study over its other parameters, with a band over the seeds at each point.
@@ -341,10 +261,6 @@ class Study(Answer, Generic[R_co]):
         pairs = zip(values, known, strict=True)
         return all(math.isclose(v, p.scales[unit].value, rel_tol=1e-12) for v, p in pairs)
 
-    @property
-    def _varied(self) -> list[str]:
-        return [path for axis in self.paths for path in axis]
-
     def table(self, *names: str) -> str:
         """Return the points as text, one per line, with remarks below.
 
@@ -354,8 +270,8 @@ class Study(Answer, Generic[R_co]):
             Columns to show beside the parameters; none: the first six of `telling`.
         """
         varied = list(self.points[0].values)
-        shown = [*varied, *(names or self._main(varied))]
-        labels = _labels(shown, varied)
+        shown = [*varied, *(names or (self.telling() or self.number_names)[:_MAX_COLUMNS])]
+        labels = labels_of(shown, varied)
         heads = [f"{labels[n]} [{self.unit(n)}]" for n in shown]
         cells = [[as_text(_number(p, n)) for n in shown] for p in self.points]
         widths = [max(map(len, column)) for column in zip(heads, *cells, strict=True)]
@@ -366,31 +282,6 @@ class Study(Answer, Generic[R_co]):
             )
         ]
         return "\n".join([*rows, *self._remarks()])
-
-    def telling(self) -> tuple[str, ...]:
-        """Names of the scalar results that change between the points, none that repeats another.
-
-        What is in proportion to a number before it says nothing new, as the fraction of the window
-        in contact beside the area. Changes at the level of rounding count as none; of a banded
-        study only the medians are taken.
-        """
-        known: list[NDArray[np.float64]] = []
-        found = list[str]()
-        for name in self.points[0].scalars:
-            if name in self._varied or name == RUNS or name.endswith(_NOT_TELLING):
-                continue
-            column = self.column(name)
-            if column.dtype.kind != "f" or not _changes(column):
-                continue
-            if not any(_in_proportion(column, one) for one in known):
-                found.append(name)
-                known.append(column)
-        return tuple(found)
-
-    def _main(self, varied: list[str]) -> list[str]:
-        """The first few numbers that change, else the first few."""
-        scalars = [n for n in self.points[0].scalars if n not in varied]
-        return (list(self.telling()) or scalars)[:_MAX_COLUMNS]
 
     def _remarks(self) -> list[str]:
         failed = [f"point {i}: {p.message}" for i, p in enumerate(self.points) if p.has_failed]
@@ -425,85 +316,6 @@ class Study(Answer, Generic[R_co]):
         )
         return write_rows(Path(path).with_suffix(".csv"), heads, rows)
 
-    def save(self, path: str | Path) -> Path:
-        """Write all columns to an npz file, atomically; `read_curve` reads it.
-
-        Parameters
-        ----------
-        path : str or Path
-            The file; its suffix becomes ``.npz``. Each column is an array over the points by its
-            name, materials and the like as text. ``parts`` of what is read are ``paths``,
-            ``shape``, and ``scales``, the definitions of the units of dimensionless columns.
-        """
-        names = (*self.units, "status")
-        parts = {"paths": self.paths, "shape": self.shape, "scales": self.scale_definitions}
-        saved = SavedCurve(
-            axis="point",
-            title="study",
-            columns=FrozenDict({name: _as_array(self.column(name)) for name in names}),
-            units=FrozenDict({"status": "-"} | dict(self.units)),
-            numbers=FrozenDict(self.scalars()),
-            status=self.status,
-            message=self.message,
-            sources=self.sources,
-            parts=FrozenDict(parts),
-        )
-        return save_curve(saved, path)
-
-
-class _Columns(Protocol):
-    """A study as columns over its parameters."""
-
-    @property
-    def shape(self) -> tuple[int, ...]: ...
-
-    @property
-    def paths(self) -> tuple[tuple[str, ...], ...]: ...
-
-    @property
-    def units(self) -> Mapping[str, str]: ...
-
-    def column(self, name: str) -> NDArray[Any]: ...
-
-
-def study_contents(study: _Columns) -> Contents:
-    """All columns of a study over its parameters; see `Study.contents`."""
-    varied = [path for paths in study.paths for path in paths]
-    names = _labels([*varied, *study.units], varied)
-    axes = tuple(names[paths[0]] for paths in study.paths)
-    found = {}
-    for i, paths in enumerate(study.paths):
-        at = np.moveaxis(np.arange(math.prod(study.shape)).reshape(study.shape), i, 0)
-        first = at.reshape(study.shape[i], -1)[:, 0]
-        for path in paths:
-            values = _as_array(study.column(path)[first])
-            found[names[path]] = Quantity((axes[i],), values, study.units[path], path)
-    for name in [*study.units, "status"]:
-        if name not in varied:
-            values, unit = study.column(name).reshape(study.shape), study.units.get(name, "-")
-            found[name] = Quantity(axes, values, unit, name.replace("_", " "))
-    return Contents(axes, found, {"title": "study"})
-
-
-def _changes(column: NDArray[np.float64]) -> bool:
-    """Whether numbers differ by more than rounding."""
-    known = column[np.isfinite(column)]
-    return known.size > 0 and bool(np.ptp(known) > _ROUND_OFF * np.abs(known).max())
-
-
-def _in_proportion(one: NDArray[np.float64], other: NDArray[np.float64]) -> bool:
-    """Whether two columns have a constant ratio, within round-off, where both are numbers."""
-    if not np.array_equal(np.isnan(one), np.isnan(other)):
-        return False
-    a, b = (values[np.isfinite(values)] for values in (one, other))
-    if a.size != b.size or not a.size:
-        return False
-    a, b = (values / max(float(np.abs(values).max()), 1e-300) for values in (a, b))
-    largest = int(np.abs(b).argmax())
-    if b[largest] == 0.0:
-        return False
-    return bool(np.abs(a - a[largest] / b[largest] * b).max() <= _ROUND_OFF)
-
 
 def _over_scales(point: StudyPoint, units: Mapping[str, str], names: set[str]) -> StudyPoint:
     """A point with some of its parameters and numbers divided by the scales of their units."""
@@ -524,11 +336,6 @@ def _over_scales(point: StudyPoint, units: Mapping[str, str], names: set[str]) -
     )
 
 
-def _as_array(column: NDArray[Any]) -> NDArray[Any]:
-    """A column as an array without objects: text for what is no number."""
-    return column if column.dtype != object else np.array([as_text(value) for value in column])
-
-
 def _points(places: list[int]) -> str:
     more = len(places) - 1
     return f"point {places[0]}" + (f" and {more} more" if more else "")
@@ -542,32 +349,3 @@ def _number(point: StudyPoint, name: str) -> Any:
     if name == "seconds":
         return point.seconds
     return point.counts.get(name, math.nan)
-
-
-def as_text(value: Any, digits: int = 6) -> str:
-    """A value in a table: what is no number by its label or name."""
-    if isinstance(value, float):
-        return f"{value:.{digits}g}"
-    for name in ("label", "name"):  # of a stack; of a material, a liquid or an effect
-        if given := getattr(value, name, None):
-            return str(given)
-    text = str(value)
-    if " " not in text and len(text) > _WIDEST:  # a path, known by its end
-        return f"... {text[4 - _WIDEST :]}"
-    return textwrap.shorten(text, _WIDEST, placeholder=" ...")
-
-
-def _labels(shown: list[str], varied: list[str]) -> dict[str, str]:
-    """Shortest ends of the paths that differ from each other and from the other columns."""
-    labels: dict[str, str] = {}
-    for name in shown:
-        ends = _ends(name) if name in varied else [name]
-        others = [end for other in shown if other != name for end in _ends(other)]
-        labels[name] = next((end for end in ends if end not in others), name)
-    return labels
-
-
-def _ends(path: str) -> list[str]:
-    """Ends of a dotted path, the shortest first."""
-    parts = path.split(".")
-    return [".".join(parts[i:]) for i in range(len(parts) - 1, -1, -1)]

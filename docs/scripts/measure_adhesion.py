@@ -1,12 +1,8 @@
-"""Accuracy and cost of adhesion of maps: ``measure_adhesion.py [NAME ...] --write``.
-
-Names select some of the tables, or ``pictures``. Seconds are those of the processor on one thread.
-"""
+"""Levels of adhesion curves of maps, and their picture: ``measure_adhesion.py --write``."""
 
 from __future__ import annotations
 
 import sys
-import time
 import warnings
 from pathlib import Path
 
@@ -16,13 +12,12 @@ from PIL import Image
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit.adhesion import maugis_dugdale
-from contactkit.benchmarks.contact_studies import SPHERES, UNITS, adhesive_sphere
+from contactkit.benchmarks.contact_studies import adhesive_sphere
 from contactkit.plot import adhesion as curves
 from contactkit.plot import style as plot
 
 IMG = Path(__file__).parents[1] / "img"
-RADIUS, WORK, MODULUS = 1e-6, 0.05, 1e9
+WORK, MODULUS = 0.05, 1e9
 SOLID = ck.Material(young_modulus=MODULUS, poisson_ratio=0.0)
 LEVELS = {
     "isolated": (-12e-9, 2e-9),
@@ -41,27 +36,6 @@ def scene(
         loading=ck.Approach(approach=0.0),
         effects=(ck.LayeredHalfSpace(), ck.Adhesion(law=law)),  # type: ignore[arg-type]
     )
-
-
-def spheres() -> str:
-    """Pull-off of spheres against Maugis-Dugdale, and what the curves cost."""
-    rows = []
-    for transition in SPHERES:
-        exact = maugis_dugdale.limits(transition).pull_off.load
-        row = [f"{transition:g}", f"{-exact:.4f}"]
-        for pixels in (64, 128):
-            begin = time.process_time()
-            found = adhesive_sphere(transition, pixels)
-            seconds = time.process_time() - begin
-            error = -found.pull_off_force / UNITS.load / exact - 1.0
-            states = found.approaching.load.size + found.separating.load.size - 1
-            trapping = next(v.value for v in found.validity if v.name.startswith("trapping"))
-            is_fine = trapping is not None and trapping <= 0.5
-            row.append(f"{100 * error:+.2f} %" + ("" if is_fine else f" (trapping {trapping:.1f})"))
-        row += [str(states), f"{found.n_applications / states:.0f}", f"{seconds:.0f}"]
-        rows.append(row)
-    head = ["Maugis parameter", "exact / pi w R", "64 x 64", "128 x 128"]
-    return grid([*head, "states", "applications a state", "seconds of the curve"], rows)
 
 
 def rough(
@@ -119,7 +93,7 @@ def pictures() -> None:
         drawn.convert("P", palette=Image.Palette.ADAPTIVE, colors=128).save(picture)
 
 
-TABLES = {"spheres": spheres, "steps": steps}
+TABLES = {"steps": steps}
 
 if __name__ == "__main__":
     warnings.simplefilter("ignore", ck.ValidityWarning)

@@ -1,18 +1,14 @@
-"""Measure the numbers of docs/bridges.md: errors and cost of the closures of liquid bridges.
+"""Measure the numbers of docs/bridges.md: errors of the closures of liquid bridges.
 
-``python docs/scripts/measure_bridges.py`` prints them, ``--write`` puts them into the page, with
-the picture. Half a minute. Names select some: ``... flats spheres breaks printed cost``.
+``python docs/scripts/measure_bridges.py`` prints them, ``--write`` puts them into the page. Names
+select some: ``... flats spheres breaks printed``.
 """
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 import sys
-import tempfile
 from collections.abc import Callable, Mapping
-from pathlib import Path
 
 from measured_blocks import measure
 from scipy.optimize import brentq
@@ -136,36 +132,11 @@ def printed_table() -> str:
     return grid(("case", "equation", "as printed", "right", "unit", "off by [%]"), rows)
 
 
-def cost_table() -> str:
-    """Error and time of the closures, with the picture."""
-    from pictures import keep, run
-
-    with tempfile.TemporaryDirectory(prefix="contactkit-") as name:
-        folder = Path(name)
-        run("bridges", "cost", folder)
-        keep(folder, {"cost": "bridges-cost"})
-        text = (folder / "cost.csv").read_text("utf-8")
-    rows = []
-    for one in csv.DictReader(io.StringIO(text)):
-        seconds = float(one["seconds for each gap or bridge [s]"])
-        rows.append(
-            (
-                one["quantity"],
-                one["closure"],
-                one["bridge"],
-                f"{float(one['error [-]']):.1e}",
-                f"{1e6 * seconds:.3g}",
-            )
-        )
-    return grid(("quantity", "closure", "bridge", "relative error", "microseconds for each"), rows)
-
-
 TABLES: Mapping[str, Callable[[], str]] = {
     "flats": flats_table,
     "spheres": spheres_table,
     "breaks": breaks_table,
     "printed": printed_table,
-    "cost": cost_table,
 }
 
 

@@ -41,20 +41,18 @@ PAGES: Mapping[str, Page] = {
         "tables of keys, ports, formulas and names on all pages", 0.2, (("tables.py",),)
     ),
     "architecture": Page("img/architecture.png", 0.1, (("architecture.py",),)),
-    "contact": Page(
-        "accuracy.md: compliance, spheres, waves, stress, solvers", 8, _measured("contact")
-    ),
-    "layers": Page("accuracy.md: cost of layers", 5, _measured("layers")),
-    "separation": Page("accuracy.md: meniscus laws, FMU", 1, _measured("separation")),
     "injector": Page(
-        "injector.md, hosts.md, fmu.md: delays, errors of steps", 2, (("injector", "--write"),)
+        "injector.md, hosts.md: delays, errors of steps", 2, (("injector", "--write"),)
     ),
-    "bridges": Page("bridges.md and its picture", 1, _measured("bridges")),
-    "films": Page("films.md and its pictures, fmu-native.md: cavities", 3, _measured("films")),
-    "deforming": Page("img/deforming-pull.png", 0.3, (("deforming",),)),
-    "adhesion": Page("adhesion.md and its picture", 10, _measured("adhesion")),
+    "bridges": Page("bridges.md: errors of closures", 0.5, _measured("bridges")),
+    "films": Page("img/: pictures of films.md", 0.5, (("film_pictures.py",),)),
+    "deforming": Page(
+        "img/deforming-pull.png; fmu-native.md: exactness of FMUs of deforming bodies",
+        1,
+        (("deforming",), ("deforming/fmus.py", "--write")),
+    ),
+    "adhesion": Page("adhesion.md: levels of a curve, and its picture", 5, _measured("adhesion")),
     "claims": Page("errata.md: statements of chapter 2", 3, _measured("claims")),
-    "work-precision": Page("img/work-precision-contact.png", 4, _measured("work_precision")),
     "pictures": Page(
         "img/: figures of shipped scenes and examples; head-disk.md, accuracy.md: head-disk",
         20,
@@ -63,7 +61,7 @@ PAGES: Mapping[str, Page] = {
     "sensitivity": Page(
         "injector.md, micromirror.md, head-disk.md: tornado figures", 7, (("sensitivity.py",),)
     ),
-    "demands": Page("demands/: accuracy and cost, hard cases, effects", 5, (("demands",),)),
+    "demands": Page("demands/: accuracy and cost, hard cases, effects", 12, (("demands",),)),
     "peers": Page(
         "demands/: what `make bench` left in out/bench",
         0.2,

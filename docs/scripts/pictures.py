@@ -46,6 +46,7 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
         )
     },
     ("fuel-injector", "cost"): {"cost": "cost", "coupling": "coupling"},
+    ("bridges", "cost"): {"cost": "bridges-cost"},
     ("micromirror", "run"): {
         "side-view": "mirror-side-view",
         "lift-off": "mirror-lift-off",

@@ -88,7 +88,7 @@ def table(found: Sensitivity, names: Mapping[str, str]) -> str:
     least = SHOWN * max(swings)
 
     def text(answer: float) -> str:
-        return "none" if answer != answer else value_text(answer, found.unit)
+        return "none" if answer != answer else value_text(answer, found.quantity_unit)
 
     rows = [
         (

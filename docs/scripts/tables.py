@@ -44,6 +44,7 @@ from contactkit.contact.effects.base import (
 from contactkit.fmu.framework.ports import Port
 from contactkit.fmu.framework.slave import PortSlave
 from contactkit.fmu.slaves.contact_stop import ContactStop
+from contactkit.fmu.slaves.deforming import DeformingForce, DeformingMass
 from contactkit.fmu.slaves.stiction_force import StictionForce
 from contactkit.fmu.slaves.stiction_mass import StictionMass
 from contactkit.fmu.slaves.tip_contact import TipContact
@@ -85,6 +86,8 @@ FMUS: Mapping[str, type[PortSlave]] = {
     "valve-drive": ValveDrive,
     "contact-stop": ContactStop,
     "tip-contact": TipContact,
+    "deforming-mass": DeformingMass,
+    "deforming-force": DeformingForce,
 }
 DOCS = Path(__file__).parents[1]
 MARK = re.compile(r"(<!-- table: ([\w -]+) -->\n)(.*?)(<!-- end of table -->)", re.DOTALL)
@@ -151,7 +154,7 @@ def default(field: attrs.Attribute[Any]) -> str:
 def keys(kind: type) -> str:
     """Keys of a table in a file: the fields of a class."""
     texts, rows = descriptions(kind), []
-    for field in attrs.fields(kind):
+    for field in (one for one in attrs.fields(kind) if one.name[0] != "_"):
         unit = field.metadata.get("unit", "")
         text = re.sub(r" \[[^]]{1,10}\]", "", texts[field.name])
         rows.append((f"`{field.alias}`", unit, default(field), text))

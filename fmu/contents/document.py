@@ -70,6 +70,22 @@ _NOTES: dict[str, tuple[str, ...]] = {
         "The longest stable step is that of the mass outside on the springs, 2 sqrt(M/(N k)); the "
         "film does not limit it.",
     ),
+    "deforming-mass": (
+        "The mass is inside, and film and bodies with it: no communication step is too long for "
+        "them. Give the pull at the start of a step as F_ext and its rate as dF_ext. h is the gap "
+        "of the undeformed bodies, h_axis that of the film.",
+        f"What is outside still limits the step: a spring of stiffness k to {_STEP}, of which a "
+        "tenth is good.",
+    ),
+    "deforming-force": (
+        "The mass is outside. Set h and v at the end of the step to come: within it the undeformed "
+        "bodies move along the parabola that ends so. c and k are the derivatives of F by v and h "
+        "over the last step, for a master that solves the coupling by Newton's method; they are "
+        "its directional derivatives, too.",
+        "Forces exchanged once in a step are stable below m/c with the mass m outside. As the "
+        "bodies give way, c falls with the step, from the damping of the film to the stiffness of "
+        "the bodies times the step.",
+    ),
     "contact-stop": (
         "The force follows the inputs at once. As for any stiff spring the step must stay below "
         f"{_STEP} of the mass outside and the stiffness k that the FMU gives; a tenth is good.",

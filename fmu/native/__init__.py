@@ -12,6 +12,8 @@ data         The file ``resources/film.bin`` of a native FMU: variables, tables 
 sources      The sources of the kernel of a native FMU: its files, and those made of the
              description.
 faces        The load-displacement curve of rough faces as the record that the C kernel reads.
+deforming    Native FMUs of a film between bodies that deform: a spring in series, or the film on
+             rings.
 film         The film of a scene as the tables that the C kernel of a native FMU reads.
 grid         Grid of a film that cavitates on a face that is no disc.
 tables       Functions of the gap as quintic Hermite tables, for the C kernel of a native FMU.

@@ -18,7 +18,7 @@ from attrs import evolve
 from ..._version import __version__
 from ...errors import DescriptionError, PlanError
 from ...scene.scenes import ContactScene, SeparationScene
-from ...separation.deforming.maxwell import refuse_fmu
+from ...separation.deforming.effects import ElasticBodies
 from ...separation.effects.prepared import prepare_scene
 from ..contents.document import license_text
 from ..contents.packing import write_archive
@@ -35,12 +35,13 @@ from ..framework.toolchain import (
 )
 from ..slaves.stiction_mass import scene_of
 from .data import contents_of, data_file, digest, guid_of
+from .deforming import DEFORMING, deforming_film, free_ports
 from .description import CATEGORIES, description_files
 from .film import FINE, moving, prepared_film
 from .models import native_model
 from .page import native_page
 from .ports import Model, check_free, native_ports
-from .records import Faces, FilmTables
+from .records import Bodies, Faces, FilmTables
 from .sources import kernel_sources, layout
 
 __all__ = [
@@ -79,7 +80,9 @@ def build_native(
     out : path
         The file to write, ``*.fmu``.
     model : {"stiction-mass", "stiction-force"}
-        A mass with its film, or the film for a tool that owns the mass.
+        A mass with its film, or the film for a tool that owns the mass. Of a scene with
+        `ElasticBodies` they are ``deforming-mass`` and ``deforming-force``; their summary, which is
+        that of `deforming.exactness_of`, says which film they hold and how exact it is.
     start : mapping, optional
         Start values by variable; a text carries its unit (``"20 g"``). The mass, ``m`` or
         ``m_ref``, must be among them if the scene has none.
@@ -93,7 +96,8 @@ def build_native(
     film_rtol : float, optional
         Error that the grid of a face that is no disc may leave in its force [-], as that of
         `Accuracy`, by default the same. The cost of a step with a cavity grows with the cells,
-        of which there are 0.1/film_rtol across the face, or more.
+        of which there are 0.1/film_rtol across the face, or more. Of bodies that deform the error
+        of the largest force of a film on rings, which is taken if this is given.
 
     Returns
     -------
@@ -108,10 +112,13 @@ def build_native(
         If the scene cannot be planned or tabulated, or a compiler is missing.
     """
     place = target(out, fmi)
-    refuse_fmu(scene)
     if model not in _MASS:
         raise DescriptionError("model", model, "be " + " or ".join(map(repr, _MASS)))
     given = dict(start or {})
+    if scene.effect(ElasticBodies) is not None:
+        about, content = _deforming(scene, model, given, film_rtol)
+        names = chosen_platforms(platforms)
+        return write_native(DEFORMING[model], about, content, place, fmi, names, compiler)
     name = _MASS[model]
     mass = _mass(model, given.pop(name)) if name in given else None
     if model == "stiction-force" and "h0" in given:
@@ -124,8 +131,41 @@ def build_native(
     values |= {name: start_value(ports, name, value) for name, value in given.items()}
     native_model(model).slave.check_start(values)
     about = native_about(model, ports, values, f" ({scene.name})" if scene.name else "")
-    content = NativeContent(film.tables, None, scene)
+    content = NativeContent(film.tables, scene=scene)
     return write_native(model, about, content, place, fmi, chosen_platforms(platforms), compiler)
+
+
+def _deforming(
+    scene: SeparationScene, model: Model, given: Mapping[str, Value | str], film_rtol: float | None
+) -> tuple[Description, NativeContent]:
+    """Description and content of the FMU of a film between bodies that deform."""
+    name = DEFORMING[model]
+    mass = _scene_mass(scene, given) if model == "stiction-mass" else None
+    film = deforming_film(scene, film_rtol, mass)
+    ports = free_ports(film, name)
+    values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
+    if mass is not None:
+        values["m"] = mass
+    elif "h0" in given:
+        given = {"h": given["h0"], **given}
+    values |= {key: start_value(ports, key, value) for key, value in given.items()}
+    native_model(name).slave.check_start(values)
+    of = f" of {scene.name}" if scene.name else ""
+    about = native_about(name, ports, values, f"{of}; {film.exactness.text}")
+    return about, NativeContent(bodies=film.bodies, scene=scene)
+
+
+def _scene_mass(scene: SeparationScene, given: Mapping[str, Value | str]) -> float:
+    """Mass that a scene has [kg], or that is given.
+
+    Raises
+    ------
+    DescriptionError
+        If there is none.
+    """
+    if "m" in given:
+        return _mass("stiction-mass", given["m"])
+    return moving(scene, None).imposed_force.mass or 0.0
 
 
 def native_about(
@@ -162,10 +202,11 @@ def target(out: str | os.PathLike[str], fmi: int) -> Path:
 
 
 class NativeContent(NamedTuple):
-    """Tables and faces of the file of a native FMU, and the scene they were made from."""
+    """Tables, faces and bodies of the file of a native FMU, and the scene they were made from."""
 
     tables: FilmTables | None = None
     faces: Faces | None = None
+    bodies: Bodies | None = None
     scene: SeparationScene | None = None
     """For the documentation."""
 
@@ -196,15 +237,17 @@ def write_native(
     """
     ports, values = about.ports, about.start
     sources = kernel_sources(fmi) | fmi_headers(fmi)
-    numbers = contents_of(model, ports, values, content.tables, content.faces).numbers()
+    made = contents_of(model, ports, values, content.tables, content.faces, content.bodies)
+    numbers = made.numbers()
     guid = guid_of(sources, numbers, ports)
-    page = native_page(content.scene, ports, values, name=model, fmi=str(fmi))
+    more = about.summary if content.bodies else ""
+    page = native_page(content.scene, ports, values, name=model, fmi=str(fmi), summary=more)
     files = {
         **description_files(
             fmi,
             evolve(about, guid=guid),
             sources,
-            takes_rate=model == "stiction-mass",
+            takes_rate=model in ("stiction-mass", "deforming-mass"),
             gives_rates=model == "valve-drive",
         ),
         "resources/film.bin": data_file(guid, layout(), numbers),

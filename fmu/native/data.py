@@ -13,7 +13,7 @@ from attrs import frozen
 from ..framework.ports import Port, Value
 from .models import MODELS, VARIABLES, native_model
 from .record import Record, maybe, real, several, whole
-from .records import Faces, FilmTables
+from .records import Bodies, Faces, FilmTables
 
 __all__ = [
     "CAUSALITIES",
@@ -47,7 +47,7 @@ class Variable(Record):
 
 @frozen(kw_only=True)
 class Contents(Record):
-    """Contents of the file of an FMU: its model, its variables, tables and faces."""
+    """Contents of the file of an FMU: its model, its variables, tables, faces and bodies."""
 
     model: int = whole("which one", 0, len(MODELS) - 1)
     variables: tuple[Variable, ...] = several(
@@ -55,6 +55,7 @@ class Contents(Record):
     )
     tables: FilmTables | None = maybe(FilmTables, "film of a scene, or of a tip")
     faces: Faces | None = maybe(Faces, "rough faces of an end stop, or of the site of a tip")
+    bodies: Bodies | None = maybe(Bodies, "bodies that deform, with their film")
 
 
 def contents_of(
@@ -63,6 +64,7 @@ def contents_of(
     start: Mapping[str, Value],
     tables: FilmTables | None = None,
     faces: Faces | None = None,
+    bodies: Bodies | None = None,
 ) -> Contents:
     """Contents of the file of an FMU.
 
@@ -71,10 +73,10 @@ def contents_of(
     DescriptionError
         If the model does not have what is given, or lacks something.
     """
-    native_model(model).check(tables, faces)
+    native_model(model).check(tables, faces, bodies)
     variables = tuple(_variable(port, start[port.name]) for port in ports)
     number = [*MODELS].index(model)
-    return Contents(model=number, variables=variables, tables=tables, faces=faces)
+    return Contents(model=number, variables=variables, tables=tables, faces=faces, bodies=bodies)
 
 
 def _variable(port: Port, start: Value) -> Variable:

@@ -13,10 +13,11 @@ from ...errors import ConvergenceError, DescriptionError, PlanError
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.base import FilmEnd, SeparationForce
-from ...separation.effects.film_shape import FilmShape
+from ...separation.effects.film_shape import FilmShape, between_flats
 from ...separation.effects.force_law import ForceLaw, measured_rate
 from ...separation.effects.prepared import PreparedScene, with_fraction
 from ...separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce, viscous_film
+from ...separation.face.shape import on_face
 from ...separation.plan import Plan, plan
 from .records import Film, FilmTables, Grid, Law, Rate, Scale, Table
 from .tables import tabulate
@@ -105,13 +106,15 @@ def prepared_film(scene: SeparationScene, accuracy: Accuracy = FINE) -> Prepared
     """
     made = plan(scene, accuracy)
     interface, loading, fraction = scene.interface, scene.loading, scene.meniscus.rewetting
+    # Under a sphere whose cavity is followed, the film is one on a face with a crown.
+    is_sphere = not interface.is_flat and not on_face(scene)
     returns = scene.meniscus.volume is not None and 0.0 < fraction < 1.0
     tension = scene.effect(TensionLimit)
     common = _Common(made, free_liquid(made.prepared), max(1e-13, 1e-3 * loading.initial_gap))
     _check_limits(common)
     tables = FilmTables(
-        is_sphere=not interface.is_flat,
-        sphere_radius=interface.sphere_radius,
+        is_sphere=is_sphere,
+        sphere_radius=interface.sphere_radius if is_sphere else _INF,
         menisci=float(scene.meniscus.count),
         reynolds=tension is not None and tension.cavity == "reynolds",
         rewetting=fraction,
@@ -147,8 +150,8 @@ def _film(common: _Common, fraction: float) -> Film:
     forces = [e for e in made.scene.effects if isinstance(e, SeparationForce)]
     rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
     is_liquid = any(kind.newtonian is not None for kind in film.laws)
-    shape = viscous_film(prepared) if is_liquid else None
-    disc = shape if can_cavitate(made.scene) and made.scene.interface.has_discs else None
+    shape = _liquid_shape(prepared) if is_liquid else None
+    disc = shape if can_cavitate(made.scene) and not on_face(made.scene) else None
     laws = [law for effect in forces for law in _laws(common, effect, film.laws[type(effect)])]
     if len(laws) > Film.most("laws"):
         raise PlanError(
@@ -164,6 +167,14 @@ def _film(common: _Common, fraction: float) -> Film:
         rim_square=disc.rim * disc.rim if disc else 0.0,
         volume=disc.volume if disc else 0.0,
     )
+
+
+def _liquid_shape(prepared: PreparedScene[SeparationScene]) -> FilmShape:
+    """Shape of the film; of one on a face that of a disc of its area, whatever the gap."""
+    interface = prepared.scene.interface
+    if on_face(prepared.scene) and not interface.is_flat:
+        return between_flats(1, _INF, interface.rim_radius)
+    return viscous_film(prepared)
 
 
 def _check_limits(common: _Common) -> None:
@@ -185,12 +196,11 @@ def can_cavitate(scene: SeparationScene) -> bool:
     One between discs may in any case; one on another face where the scene has a `TensionLimit`, as
     it takes a grid.
     """
-    interface = scene.interface
     if scene.effect(ViscousForce) is None:
         return False
-    if not interface.has_discs:
+    if on_face(scene):
         return scene.effect(TensionLimit) is not None
-    return interface.is_flat
+    return scene.interface.is_flat
 
 
 def _grid(common: _Common) -> Grid | None:
@@ -275,7 +285,7 @@ def _law_table(
     lowest, final, high = common.lowest, common.final_gap, min(law.end, law.known_to)
     stays = math.isfinite(high)
     if not stays:
-        is_power = rate is not Rate.AT_REST and common.plan.scene.interface.has_discs
+        is_power = rate is not Rate.AT_REST and not on_face(common.plan.scene)
         high = (_FAR if is_power else _FARTHER) * final
     folds = {high} if high == law.end else set[float]()
     inside = {kink for kink in law.kinks if lowest < kink < high}

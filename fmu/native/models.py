@@ -17,11 +17,12 @@ from ...errors import DescriptionError
 from ..framework.ports import Port
 from ..framework.slave import PortSlave
 from ..slaves.contact_stop import ContactStop
+from ..slaves.deforming import DeformingForce, DeformingMass
 from ..slaves.stiction_force import StictionForce
 from ..slaves.stiction_mass import StictionMass
 from ..slaves.tip_contact import TipContact
 from ..slaves.valve_drive import ValveDrive
-from .records import Faces, FilmTables
+from .records import Bodies, Faces, FilmTables
 
 __all__ = ["DISCRETE", "MODELS", "NativeModel", "VARIABLES", "enumerations", "native_model"]
 
@@ -35,7 +36,9 @@ class NativeModel:
     """Its Python FMU, of which it has the variables that its tables leave free."""
     summary: str
     has_film: bool
-    faces: Literal["never", "maybe", "always"]
+    faces: Literal["never", "maybe", "always"] = "never"
+    deforms: bool = False
+    """Whether it has bodies that deform, with a film of their own."""
 
     @property
     def identifier(self) -> str:
@@ -47,7 +50,9 @@ class NativeModel:
         """Variables that it may have."""
         return tuple(port for port in self.slave.ports if not port.tabulated)
 
-    def check(self, tables: FilmTables | None, faces: Faces | None) -> None:
+    def check(
+        self, tables: FilmTables | None, faces: Faces | None, bodies: Bodies | None = None
+    ) -> None:
         """Refuse a file without what the model steps, or with more.
 
         Raises
@@ -58,6 +63,8 @@ class NativeModel:
         expected = {"never": faces is None, "maybe": True, "always": faces is not None}
         if (tables is not None) is not self.has_film:
             raise DescriptionError(f"tables of {self.name}", tables, self._must(self.has_film))
+        if (bodies is not None) is not self.deforms:
+            raise DescriptionError(f"bodies of {self.name}", bodies, self._must(self.deforms))
         if not expected[self.faces]:
             must = self._must(self.faces == "always")
             raise DescriptionError(f"faces of {self.name}", faces, must)
@@ -73,14 +80,12 @@ _ALL = (
         slave=StictionMass,
         summary=StictionMass.summary,
         has_film=True,
-        faces="never",
     ),
     NativeModel(
         name="stiction-force",
         slave=StictionForce,
         summary="Liquid film between two bodies: forces, impulses and doubts of coupling",
         has_film=True,
-        faces="never",
     ),
     NativeModel(
         name="valve-drive",
@@ -102,6 +107,20 @@ _ALL = (
         summary=TipContact.summary.partition(" (")[0],  # what Python needs
         has_film=True,
         faces="maybe",
+    ),
+    NativeModel(
+        name="deforming-mass",
+        slave=DeformingMass,
+        summary=DeformingMass.summary,
+        has_film=False,
+        deforms=True,
+    ),
+    NativeModel(
+        name="deforming-force",
+        slave=DeformingForce,
+        summary=DeformingForce.summary,
+        has_film=False,
+        deforms=True,
     ),
 )
 MODELS: Mapping[str, NativeModel] = {model.name: model for model in _ALL}

@@ -26,6 +26,7 @@ def native_page(
     *,
     name: str = "stiction-mass",
     fmi: str = "2",
+    summary: str = "",
 ) -> str:
     """HTML page: what the FMU was made from, and its variables.
 
@@ -41,12 +42,14 @@ def native_page(
         Name of the FMU.
     fmi : {"2", "3"}
         Version of FMI.
+    summary : str
+        What it is, if there is more to say than of its model.
     """
     model = native_model(name)
     page = Page.of_native(
         name=name,
         title=model.slave.__name__,
-        summary=model.summary,
+        summary=summary or model.summary,
         ports=ports,
         start=start,
         fmi=fmi,

@@ -17,6 +17,7 @@ from ...scene.scenes import SeparationScene
 from ...separation.effects.adhesion import AdhesiveContact
 from ...separation.effects.prepared import PreparedScene
 from ...separation.effects.viscous import TensionLimit, ViscousForce, keeps_radius
+from ...separation.face.shape import on_face
 from ..framework.places import read
 from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
 from ..slaves.stiction_mass import PLACES
@@ -94,7 +95,7 @@ def _bounded(port: Port, scene: SeparationScene, lowest: float, model: Model) ->
         return evolve(port, exclusive=False, minimum=low, maximum=port.start if held else None)
     if model == "stiction-force" and port.name == "h":
         return evolve(port, exclusive=False, minimum=lowest)
-    is_limited = scene.interface.has_discs and scene.effect(ViscousForce) is not None
+    is_limited = not on_face(scene) and scene.effect(ViscousForce) is not None
     if port.name in ("dp_cav", "tau_lim") and not is_limited:
         return evolve(port, maximum=0.0)  # there is nothing to limit, but a master asks for them
     return port

@@ -24,6 +24,7 @@ from .record import (
 )
 
 __all__ = [
+    "Bodies",
     "Cells",
     "Curve",
     "Faces",
@@ -31,12 +32,15 @@ __all__ = [
     "FilmTables",
     "Grid",
     "Law",
+    "Matrix",
     "Onset",
     "Piece",
     "PocketSides",
     "PowerCurve",
     "Rate",
+    "Rings",
     "Scale",
+    "Series",
     "Sides",
     "Table",
     "Unloading",
@@ -223,3 +227,41 @@ class Faces(Record):
         Unloading, "in the order of their ends; there are losses where there is one", most=64
     )
     checked: ClassVar[bool] = True
+
+
+@frozen(kw_only=True)
+class Series(Record):
+    """A film of rigid bodies, in series with the spring that stands for the deforming ones."""
+
+    damping: Table = part(Table, "damping over the viscosity [m]")
+
+
+@frozen(kw_only=True)
+class Matrix(Record):
+    """A square matrix, by its rows."""
+
+    entry: tuple[float, ...] = column("a coefficient")
+
+
+@frozen(kw_only=True)
+class Rings(Record):
+    """A film on rings and the displacement under it, by units of radii, gaps and pressures."""
+
+    width: float = positive("unit of radii [m]")
+    pressure: float = positive("unit of pressures [Pa]")
+    radius: tuple[float, ...] = column("radius of a node [-]", ascends=True)
+    relief: tuple[float, ...] = column("gap of the undeformed bodies less that on the axis [-]")
+    area: tuple[float, ...] = column("integral of its hat times the radius [-]")
+    compliance: Matrix = part(Matrix, "displacement at a node by the pressure at another [-]")
+
+
+@frozen(kw_only=True)
+class Bodies(Record):
+    """Bodies that a film deforms, as a spring in series with it, or with the film on rings."""
+
+    gap: float = positive("gap of the undeformed bodies that units are of [m]")
+    stiffness: float = positive("of the spring at that gap [N/m]")
+    widens: bool = flag("whether it grows as the root of the gap, as under a sphere")
+    ratio: float = positive("displacement over the gap by the film, over that of the spring [-]")
+    series: Series | None = maybe(Series, "the spring alone")
+    rings: Rings | None = maybe(Rings, "the film on rings")

@@ -80,8 +80,9 @@ def _declarations() -> tuple[str, ...]:
         *map(_struct, _records()),
         "extern const char *const ck_names[CK_VARIABLES];\n"
         "extern const int ck_discrete[CK_DISCRETE];\n"
-        "/* Whether a model has a film, and faces; -1: it may. */\n"
-        "extern const int ck_has_film[CK_MODELS], ck_has_faces[CK_MODELS];\n\n"
+        "/* Whether a model has a film, and faces; -1: it may; whether its bodies deform. */\n"
+        "extern const int ck_has_film[CK_MODELS], ck_has_faces[CK_MODELS];\n"
+        "extern const int ck_deforms[CK_MODELS];\n\n"
         "/* Read the numbers of a file; whether all is in range says the reader. */\n"
         "void ck_read_contents(ck_reader *r, ck_contents *to);\n",
         "".join(_hooks()),
@@ -93,13 +94,15 @@ def _readers() -> str:
     discrete = _wrapped(f"CK_{name.upper()}" for name in DISCRETE)
     films = ", ".join(str(int(model.has_film)) for model in MODELS.values())
     faces = ", ".join(str(_FACES[model.faces]) for model in MODELS.values())
+    deform = ", ".join(str(int(model.deforms)) for model in MODELS.values())
     parts = [
         "/* Names of variables, and reading of records; made by fmu/native/sources.py. */\n",
         '#include "reader.h"\n\n#include <math.h>\n',
         f"const char *const ck_names[CK_VARIABLES] = {{\n{names}}};\n",
         f"const int ck_discrete[CK_DISCRETE] = {{\n{discrete}}};\n",
         f"const int ck_has_film[CK_MODELS] = {{{films}}};\n"
-        f"const int ck_has_faces[CK_MODELS] = {{{faces}}};\n",
+        f"const int ck_has_faces[CK_MODELS] = {{{faces}}};\n"
+        f"const int ck_deforms[CK_MODELS] = {{{deform}}};\n",
         *map(_reader, _records()),
     ]
     return "\n".join(parts)

@@ -73,7 +73,7 @@ def build_native_tip(
     ports = _ports(film)
     about = native_about("tip-contact", ports, {port.name: values[port.name] for port in ports})
     faces = None if site is None else faces_of(LoadDisplacementCurve.from_data(site))
-    content = NativeContent(film.tables, faces, scene)
+    content = NativeContent(film.tables, faces, scene=scene)
     names = chosen_platforms(platforms)
     return write_native("tip-contact", about, content, place, fmi, names, compiler)
 

@@ -1,6 +1,8 @@
 """The FMUs: stiction-mass, stiction-force, valve-drive, contact-stop, tip-contact.
 
 contact_stop    The FMU ``contact-stop``: rough faces that meet at an end stop; gap in, force out.
+deforming       The variables of ``deforming-mass`` and ``deforming-force``: films between bodies
+                that deform.
 film_travel     Impulses of a film over a change of its gap, and the time of its rupture.
 tension         Tension limit of a scene, and the parameters that stand for it.
 stiction_force  The FMU ``stiction-force``: a liquid film for a tool that owns the mass; motion in,

@@ -126,7 +126,7 @@ class InjectorScene(Device):
             around = limit.ambient_pressure if ambient_pressure is None else ambient_pressure
             same = limit.tension + (around - limit.ambient_pressure)
             bears = same if strength is None else strength
-            found = {"ambient_pressure": around, "strength": bears}
+            found: dict[str, Any] = {"ambient_pressure": around, "strength": bears}
             if limit.cavity == "mass-conserving":
                 held = limit.cavity_pressure if cavity_pressure is None else cavity_pressure
                 found["cavity_pressure"] = None if held is None else max(held, around - bears)

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 import pytest
 
 import contactkit as ck
 from contactkit._lazy import named
 from contactkit.benchmarks import contact_studies, table
-from contactkit.benchmarks.hard import layers
 from contactkit.cli import main
 from contactkit.work_precision import Point
 
@@ -51,6 +49,20 @@ def test_every_study_can_be_measured_and_no_scene_has_its_name():
         table.study_of("slips")
 
 
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["hertzz"], "did you mean 'hertz'"),  # a study
+        (["fuel-injektor"], "did you mean 'fuel-injector'"),  # a scene
+        (["?"], "small-opening"),  # all of them, hard cases too
+        (["slip", "--set", "loading.force=1"], "settings are of a scene"),
+    ],
+)
+def test_a_name_that_has_no_cost_is_refused(words, message, capsys):
+    assert main(["cost", *words]) == 2
+    assert message in capsys.readouterr().err
+
+
 def test_a_hard_case_is_run_by_its_name(capsys):
     assert main(["cost", "small-opening"]) == 0
     text = capsys.readouterr().out
@@ -62,15 +74,7 @@ def test_a_hard_case_is_run_by_its_name(capsys):
     assert found["naive / error"]["value"] >= case.fails
 
 
-def test_the_compliance_of_the_hard_disk_is_that_of_the_reference_table():
-    """A copy of some columns, which the package needs without the tests."""
-    here = Path(__file__).parents[1] / "data" / "layered.json"
-    disk = json.loads(here.read_text("utf-8"))["stacks"]["disk_table2.1"]
-    kept = json.loads((Path(layers.__file__).with_name("disk_compliance.json")).read_text("utf-8"))
-    assert kept.pop("rows") == [[row[0], row[3]] for row in disk["rows"]]
-    assert kept == {key: disk[key] for key in kept}
-
-
+@pytest.mark.slow
 def test_errors_fall_with_the_grid():
     """Against Hertz, by the solver that is judged."""
     cylinder = [p for p in contact_studies.lines() if p.method.startswith("cylinder")]

@@ -194,7 +194,7 @@ effect = "half-space"
 [[effects]]
 {effects}
 [accuracy]
-grid = 24
+grid = 16
 [study]
 {study}
 """

@@ -71,7 +71,7 @@ def test_a_value_set_is_that_of_a_file_with_it(scene, tmp_path, capsys):
             "7e-05 m",
         ),
         ("interface.lower={shape='flat', radius='2 mm'}", "viscous-force"),
-        ("accuracy.rtol=1e-4", "viscous-force"),
+        ("accuracy.time_rtol=1e-4", "viscous-force"),
     ],
 )
 def test_values_are_those_of_a_scene_file(scene, capsys, assignment, shown):

@@ -74,11 +74,11 @@ def test_verbose_names_wall_and_cpu_time_of_each_step(scene, tmp_path, capsys):
     assert re.search(r" evaluations, \d+\.\d+ s wall time", found.out)
 
 
-def test_seconds_of_a_cost_table_are_labelled_wall_time():
+def test_seconds_of_a_cost_table_are_labelled_cpu_time():
     from contactkit.work_precision import Point, WorkPrecision
 
     table = WorkPrecision("force", 1.0, 1e-9, (Point("a", "b", 0.0, 1.0, {}),)).table()
-    assert "wall time" in table
+    assert "CPU time" in table
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""How long a whole contact takes, from map or scene to numbers, and what each effect adds."""
+"""Chains of contact solves, in single solves, and the memory of one. Counts are asserted."""
 
 from __future__ import annotations
 
@@ -19,15 +19,6 @@ STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
 CARBON = ck.Material(name="carbon", young_modulus=420e9, poisson_ratio=0.25)
 COATED = ck.Stack(layers=(ck.Layer(material=CARBON, thickness=2e-8),), substrate=STEEL)
 MODULUS = 210e9 / (1.0 - 0.3**2)  # contact modulus [Pa]
-STICKY = ck.ExponentialAttraction(work_of_adhesion=0.05, range=2e-9)
-EFFECTS = {
-    "friction": (ck.FrictionTraction(coefficient=0.3),),
-    "friction-coupling": (ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling()),
-    "hardness": (ck.HardnessLimit(),),
-    "five-planes-of-stress": (ck.SubsurfaceStress(depths=(0.0, 1e-9, 5e-9, 2e-8, 1e-7)),),
-    "meniscus": (ck.FilmMeniscus(film_thickness=1e-9),),
-    "adhesion": (ck.Adhesion(law=STICKY),),
-}
 
 
 @pytest.fixture(scope="module")
@@ -47,38 +38,6 @@ def head_disk(*effects):
 
 def planned(scene):
     return ck.plan(scene, ck.Accuracy(grid=N))
-
-
-@pytest.mark.parametrize("solid", [STEEL, COATED], ids=["half-space", "coated"])
-@pytest.mark.parametrize("periodic", [True, False], ids=["periodic", "free"])
-def test_press_a_map(benchmark, one_map, solid, periodic):
-    heights, pressure = one_map
-    found = benchmark(ck.press, heights, 1e-6 / N, solid, pressure, periodic=periodic)
-    benchmark.extra_info["applications"] = found.work.n_operator_applications
-    assert found.status == "converged"
-
-
-@pytest.mark.parametrize("name", ["nothing", *EFFECTS])
-def test_head_disk_with(benchmark, name):
-    found = benchmark(ck.solve, planned(head_disk(*EFFECTS.get(name, ()))))
-    benchmark.extra_info["applications"] = found.work.n_operator_applications
-    assert found.status == "converged"
-
-
-def test_head_disk_with_everything(benchmark):
-    effects = open_scene("head-disk").scene.effects[1:]
-    found = benchmark.pedantic(ck.solve, (planned(head_disk(*effects)),), rounds=3)
-    assert len(found.parts) >= 4
-    assert found.status == "converged"
-
-
-def test_curve_of_ten_loads(benchmark):
-    scene = head_disk()
-    loads = [f"{8 * 1.3**i} MPa" for i in range(10)]
-    found = benchmark.pedantic(
-        ck.study, (scene, {"loading.pressure": loads}, ck.Accuracy(grid=N)), rounds=3
-    )
-    assert {point.status for point in found.points} == {"converged"}
 
 
 PLATE = ck.Material(name="plate", young_modulus=100 * 210e9, poisson_ratio=0.3)

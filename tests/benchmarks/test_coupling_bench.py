@@ -140,7 +140,7 @@ def test_release_by_impulses(benchmark, film, name, most):
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-4])
 @pytest.mark.parametrize("kind", ["python", "native film", "native"])
 def test_injector_cycle_by_the_pair(benchmark, pairs, kind, tolerance):
-    """One firing cycle, adaptive steps; the monolithic one is in test_motion_bench."""
+    """One firing cycle, adaptive steps; the monolithic one is in the study ``injector-release``."""
     if kind not in pairs:
         pytest.skip("there is no C compiler")
     seconds = []  # in the steps: a cycle begins with unpacking two FMUs

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from selection import quick
 
 from contactkit.capillary.arc import flat as arc_flat
 from contactkit.capillary.exact.bridge import bridge
@@ -57,7 +58,9 @@ PAIRS = [
 ]
 
 
-@pytest.mark.parametrize("pair", PAIRS, ids=str)
+@pytest.mark.parametrize(
+    "pair", quick([(one,) for one in PAIRS], 0, 2, 4, 6, 8, 10, 12, 14), ids=str
+)
 def test_force_is_that_of_the_solved_bridge_at_every_gap(pair):
     # The kernel solves for each gap; the law never does.
     lower, upper = map(math.radians, pair)
@@ -70,7 +73,7 @@ def test_force_is_that_of_the_solved_bridge_at_every_gap(pair):
     assert np.max(np.abs(force - solved.force) / scale) < 2e-8
 
 
-@pytest.mark.parametrize("pair", PAIRS, ids=str)
+@pytest.mark.parametrize("pair", quick([(one,) for one in PAIRS], 1, 4, 7, 10, 13), ids=str)
 def test_a_pinned_bridge_is_the_free_one_of_its_volume(pair):
     lower, upper = map(math.radians, pair)
     law, free = flat_law(lower, upper, pinned=True), flat_law(lower, upper)
@@ -81,7 +84,9 @@ def test_a_pinned_bridge_is_the_free_one_of_its_volume(pair):
         assert law.force(gap) == pytest.approx(size * free.force(gap / size), rel=1e-7, abs=1e-7)
 
 
-@pytest.mark.parametrize("pair", PAIRS, ids=str)
+@pytest.mark.parametrize(
+    "pair", quick([(one,) for one in PAIRS], 0, 2, 4, 6, 8, 10, 12, 14), ids=str
+)
 @pytest.mark.parametrize("pinned", [False, True])
 def test_a_thin_film_is_an_arc_without_a_step(pair, pinned):
     lower, upper = map(math.radians, pair)

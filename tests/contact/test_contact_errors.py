@@ -107,10 +107,10 @@ FIELDS = [
     (WET, "film_thickness", "m", POSITIVE, [0.0, -1e-9, None]),
     (WET, "meniscus_height", "m", POSITIVE, [0.0, -1e-9]),
     (WET, "connectivity", "", "be 4 or 8 neighbours", [0, 6, None]),
-    (ck.Accuracy(), "rtol", "", TOLERANCE, [0.0, -1e-8, 1.0, 1e-14, None]),
+    (ck.Accuracy(), "rtol", "", TOLERANCE, [0.0, -1e-8, 1.0, 1e-14]),
     (ck.Accuracy(), "grid", "", WHOLE.replace("1", "2"), [0, 1, -5, 1.5]),
-    (ck.Accuracy(), "max_iterations", "", WHOLE, [0, -5, 1.5, None]),
-    (ck.Accuracy(), "threads", "", WHOLE, [0, -5, 1.5, None]),
+    (ck.Accuracy(), "max_iterations", "", WHOLE, [0, -5, 1.5]),
+    (ck.Accuracy(), "threads", "", WHOLE, [0, -5, 1.5]),
 ]
 # Checked apart: arrays, depths and loads before, which are many.
 ELSEWHERE = {

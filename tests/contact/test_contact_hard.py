@@ -7,6 +7,7 @@ import math
 import loadings
 import numpy as np
 import pytest
+from selection import quick
 
 import contactkit as ck
 from contactkit.contact.solver.optimality import height_scale
@@ -367,7 +368,7 @@ def test_iterations_of_the_hardness_that_run_out_say_so_and_hand_over_what_they_
     assert np.all(reached.pressure <= reached.of(ck.HardnessLimit).hardness * (1.0 + 1e-15))
 
 
-@pytest.mark.parametrize("pressure", np.geomspace(1e5, 2e7, 9))
+@pytest.mark.parametrize("pressure", quick(np.geomspace(1e5, 2e7, 9), 0, 3, 6, 8))
 def test_where_the_literal_rule_jumps_it_is_reported_and_never_cycled_through(pressure):
     """The source's criteria forget the hard top at once: at some loads no hardness agrees."""
     plan = made(ck.HardnessLimit(rule="literal"), lower=JUMPING, pressure=float(pressure))
@@ -563,7 +564,7 @@ def test_a_stiff_ball_on_a_film_is_pulled_by_the_classical_force():
 
 def test_the_pull_on_a_ball_that_yields_grows_with_the_load():
     soft = ck.Material(young_modulus=1e12, poisson_ratio=NU)
-    runs = [ball_on_film(force, soft, width=12.0 * RIM) for force in (0.0, 2e-3, 2e-2, 2e-1)]
+    runs = [ball_on_film(force, soft, width=12.0 * RIM) for force in (0.0, 2e-2, 2e-1)]
     pulls = [run.of(ck.FilmMeniscus).force for run in runs]
     assert pulls == sorted(pulls)
     assert pulls[-1] > 1.1 * pulls[0] > 1.1 * PULL
@@ -591,7 +592,11 @@ def test_a_result_under_a_film_is_in_balance_or_says_that_it_is_not(force):
 
 @pytest.mark.parametrize(
     ("modulus", "thickness", "pressure"),
-    [(3e8, 1e-9, 0.0), (3e8, 2e-9, 3e6), (1e9, 1e-9, 0.0), (1e9, 1e-9, 1e5), (1e10, 1e-9, 3e6)],
+    quick(
+        [(3e8, 1e-9, 0.0), (3e8, 2e-9, 3e6), (1e9, 1e-9, 0.0), (1e9, 1e-9, 1e5), (1e10, 1e-9, 3e6)],
+        1,
+        3,
+    ),
 )
 def test_a_load_below_the_hardness_has_an_equilibrium_with_any_film(modulus, thickness, pressure):
     """As load and pull approach H*A the bodies touch all over, and there are no menisci left."""

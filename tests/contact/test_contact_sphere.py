@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,11 +10,12 @@ from scipy.special import ellipe, ellipk
 from selection import quick
 
 import contactkit as ck
+from contactkit.benchmarks.references.tables import reference
 from contactkit.reference import hamilton, hertz
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
-CASES = json.loads((Path(__file__).parents[1] / "data" / "contact.json").read_text("utf-8"))
+CASES = reference("contact")
 SPHERES = {case["name"]: case for case in CASES["spheres"]}
 
 E, NU, RADIUS, A0 = 1e9, 0.3, 1e-3, 1e-6  # substrate, sphere, and Hertz's contact on it
@@ -240,7 +239,7 @@ def layered():
     return get
 
 
-@pytest.mark.parametrize("name", quick(list(SPHERES), 0, 3, 6))
+@pytest.mark.parametrize("name", quick(list(SPHERES), 3, 6))
 def test_a_coated_half_space_carries_the_sphere_as_the_table_says(layered, name):
     case, run = SPHERES[name], layered(name)
     assert run.max_pressure / P_HERTZ == pytest.approx(case["peak_pressure"], rel=2e-4)
@@ -261,10 +260,7 @@ def test_a_coated_half_space_carries_the_sphere_as_the_table_says(layered, name)
         + [(STRESSED[k], friction) for k in (1, 2, 4) for friction in ("0", "0.25", "0.5")],
         1,
         2,
-        4,
         8,
-        10,
-        11,
     ),
 )
 def test_the_largest_stress_is_that_of_the_table(layered, name, friction):
@@ -280,7 +276,9 @@ def test_the_largest_stress_is_that_of_the_table(layered, name, friction):
     assert found.layer == wanted["material"]
 
 
-@pytest.mark.parametrize("name", [n for n, case in SPHERES.items() if case["samples"]][:3])
+@pytest.mark.parametrize(
+    "name", quick([n for n, case in SPHERES.items() if case["samples"]][:3], 1)
+)
 def test_stresses_at_points_are_those_of_the_table(name):
     """On both faces of an interface too: pixels of a0/20, so that the points lie on pixels."""
     case = SPHERES[name]

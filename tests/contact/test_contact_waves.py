@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import contactkit as ck
+from contactkit.benchmarks.references.tables import reference
 from contactkit.reference import layered_wave, product_wave, westergaard
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
-CASES = json.loads((Path(__file__).parents[1] / "data" / "contact.json").read_text("utf-8"))
+CASES = reference("contact")
 WAVES, LAYERED = CASES["waves"]["homogeneous"], CASES["waves"]["layered"]
 NU = 0.3
 UNIT = ck.Material(young_modulus=1.0 - NU**2, poisson_ratio=NU)  # E* = 1 [Pa]

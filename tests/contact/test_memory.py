@@ -7,6 +7,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
+from selection import quick
 
 import contactkit as ck
 from contactkit.contact.solver.contact_solver import ContactSolver
@@ -31,7 +32,7 @@ def planned(n, periodic):
     )
 
 
-@pytest.mark.parametrize("periodic", [True, False])
+@pytest.mark.parametrize("periodic", quick([True, False], 0))
 def test_a_plan_states_the_memory_of_its_solve(periodic):
     n = 320
     ck.solve(planned(n, periodic))  # imports and compiled code are no part of it

@@ -24,7 +24,7 @@ def blocks(page, language):
     return [textwrap.dedent(body) for _, body in found]
 
 
-SLOW = ("adhesion", "head-disk", "hosts")
+SLOW = ("adhesion", "head-disk", "hosts", "films", "menisci", "cluster", "figures")
 
 
 def with_blocks(language):

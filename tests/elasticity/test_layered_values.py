@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 
+from contactkit.benchmarks.references.tables import reference
 from contactkit.elasticity.layer_stack import small_wavenumber_constant, uniform_compliance
 from contactkit.elasticity.layered import (
     compliance,
@@ -17,7 +15,7 @@ from contactkit.elasticity.layered_fields import plane_states
 from contactkit.elasticity.stress.periodic import grid_of_modes, on_modes, table_of
 from contactkit.elasticity.stress.planes import component
 
-DATA = json.loads((Path(__file__).parents[1] / "data" / "layered.json").read_text())
+DATA = reference("layered")
 each_stack = pytest.mark.parametrize("stack", DATA["stacks"].values(), ids=DATA["stacks"])
 
 

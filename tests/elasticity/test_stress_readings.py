@@ -7,6 +7,7 @@ import functools
 import numpy as np
 import pytest
 from scipy import ndimage
+from selection import quick
 
 import contactkit as ck
 from contactkit.elasticity.layer_stack import Layers
@@ -53,7 +54,8 @@ def finer(values, kernel, times):
 
 @pytest.mark.parametrize("reading", KERNELS)
 @pytest.mark.parametrize(
-    ("shape", "pixel"), [((12, 12), (0.2, 0.2)), ((9, 14), (0.1, 0.25)), ((1, 10), (1.0, 0.3))]
+    ("shape", "pixel"),
+    quick([((12, 12), (0.2, 0.2)), ((9, 14), (0.1, 0.25)), ((1, 10), (1.0, 0.3))], 2),
 )
 def test_a_reading_is_the_finer_map_it_stands_for(reading, shape, pixel):
     """All components under pressure and both tractions, on layers, at a third of a pixel and on."""

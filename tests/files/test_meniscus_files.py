@@ -6,6 +6,7 @@ import math
 import re
 
 import pytest
+from selection import quick
 
 import contactkit as ck
 
@@ -52,11 +53,15 @@ WATER = {
 
 @pytest.mark.parametrize(
     ("more", "given"),
-    [
-        ("", {}),
-        ("count = 4\n", {"count": 4}),
-        ('body = "upper"\nprofile = "arc"\n', {"body": "upper", "profile": "arc"}),
-    ],
+    quick(
+        [
+            ("", {}),
+            ("count = 4\n", {"count": 4}),
+            ('body = "upper"\nprofile = "arc"\n', {"body": "upper", "profile": "arc"}),
+        ],
+        2,
+        1,
+    ),
 )
 def test_a_radius_at_a_gap_is_that_of_python(read, more, given):
     made = ck.Meniscus.from_radius(radius=100e-9, at_gap=2e-9, **WATER, **given)

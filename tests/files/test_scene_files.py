@@ -142,7 +142,7 @@ OWN = {
     "material": (
         contact(solid=Alloy(young_modulus=2e11, poisson_ratio=0.3)),
         r"interface\.lower\.solid",
-        "keep the scene in Python",
+        "ck.register(Alloy)",
     ),
     "function": (with_field(separation(), "name", math.sin), r"SeparationScene\.name", "pickle"),
     "control-character": (separation(name="\x1b[31m"), "control characters", r"'\x1b[31m'"),

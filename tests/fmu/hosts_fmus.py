@@ -7,10 +7,9 @@ import re
 import sys
 from pathlib import Path
 
-from native_scenes import FACE, scene
+from attrs import evolve
 
-import contactkit as ck
-from contactkit.benchmarks.releases import release_cases
+from contactkit.benchmarks.releases import release_cases, release_scene
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.native.build import build_native
 from contactkit.fmu.python import build as building
@@ -40,30 +39,13 @@ def python_fmu(folder, model, name, **changes):
 
 
 def native_fmu(folder, model, name, fmi=2, **changes):
-    """The same without Python."""
-    case, start = CASES[name]["case"], values(name) | changes
-    built = scene(
-        lower=FACE,
-        upper=FACE,
-        volume=case["V"] or None,
-        gap=case["h0"],
-        mass=case["m"],
-        final=case["h_rel"],
-        stiffness=start["k_s"],
-        effects=(
-            ck.MeniscusForce(profile=ck.AsPublished(radius="disc")),
-            ck.ViscousForce(),
-            *(
-                (ck.TensionLimit(strength=case["dp_cav"], cavity="truncated"),)
-                if case["dp_cav"]
-                else ()
-            ),
-        ),
-    )
-    given = {key: start[key] for key in ("eta", "gamma", "F_ext") if key in start}
+    """The same without Python: of the scene of the case, `changes` as for `python_fmu`."""
+    built, start = release_scene(name), dict(changes)
+    if "k_s" in start:
+        built = evolve(built, loading=evolve(built.loading, stiffness=start.pop("k_s")))
     out = folder / f"{model}-{name}-native-{fmi}.fmu"
     here = {"platforms": [local()], "compiler": "cc"}
-    return build_native(built, out, model=model, fmi=fmi, start=given, **here)
+    return build_native(built, out, model=model, fmi=fmi, start=start, **here)
 
 
 def _load(module):

@@ -25,6 +25,7 @@ from contactkit.files.results import to_bytes
 from contactkit.fmu.contents.ssp import Component
 from contactkit.fmu.framework import state as fmu_state
 from contactkit.models.library import bundled_scenes
+from contactkit.reading.images import read_coverage
 from contactkit.roughness.height_maps import read_height_map
 from contactkit.studies.store import Store
 from contactkit.units import parse_quantity, parse_unit
@@ -45,6 +46,7 @@ def readers() -> dict[str, Callable[[], Reader]]:
         "result": _results,
         "curve": _curves,
         "map": _maps,
+        "image": _images,
         "fmu": _fmus,
         "ssp": _components,
         "study": _points,
@@ -109,7 +111,7 @@ def _results() -> Reader:
     made = {
         "contact": ck.solve(ck.plan(pressed, ck.Accuracy(grid=8))),
         "separation": ck.simulate(ck.plan(opened, coarse)),
-        "sliding": ck.simulate(ck.plan(slid, coarse)),
+        "sliding": ck.simulate(ck.plan(slid, ck.Accuracy(points=20))),
     }
     return Reader({f"{n}.npz": to_bytes(one) for n, one in made.items()}, _loaded, _check_result)
 
@@ -187,6 +189,26 @@ def _maps() -> Reader:
         "a.sdf": _SDF.encode(),
     }
     return Reader(seeds, _read_map, _check_map)
+
+
+def _images() -> Reader:
+    from PIL import Image
+
+    grey, array, drawn = (
+        np.array([[0, 51, 255], [0, 255, 255]], np.uint8),
+        io.BytesIO(),
+        io.BytesIO(),
+    )
+    np.save(array, grey / 255.0)
+    Image.fromarray(grey).save(drawn, "PNG")
+
+    def check(found: Any) -> None:
+        assert found.ndim == 2
+        assert found.dtype == np.float64
+        assert ((found >= 0.0) & (found <= 1.0)).all()
+
+    seeds = {"a.npy": array.getvalue(), "a.png": drawn.getvalue()}
+    return Reader(seeds, lambda path: read_coverage(str(path)), check)
 
 
 def has_instruments() -> bool:

@@ -12,11 +12,9 @@ QUICK = (
     "sphere_bridges",
     "hertz_mindlin",
     "sphere_adhesion",
-    "rupture_work",
     "film_forces",
-    "cold_oil",
 )
-SLOW = ("contact_square", "rough_area")  # ten seconds each
+SLOW = ("contact_square", "rough_area", "rupture_work", "cold_oil")  # up to ten seconds each
 
 
 @pytest.mark.parametrize(

@@ -101,7 +101,7 @@ def test_solved_areas_lie_between_the_theories_and_meet_persson_at_full_contact(
 
 
 @pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
-def test_a_theory_ends_where_it_holds():
+def test_a_theory_ends_where_it_holds(tmp_path):
     surface = heights(32)
     found = area_over_load([ck.press(surface, 1e-9, SOLID, x * 1e8) for x in (0.02, 0.2, 1.4)])
     assert found.ranges == {name: theories.RANGES[name] for name in found.theories}
@@ -115,6 +115,11 @@ def test_a_theory_ends_where_it_holds():
         np.testing.assert_array_equal(fractions[kept], found.theories[name][kept])
     persson = found.theories_in_range["Persson"]
     assert np.isnan(persson).tolist() == [True, True, False]
+    read = ck.read_curve(found.save(tmp_path / "area"))  # a curve like every other
+    assert (read.axis, read.sources) == ("mean_pressure", found.sources)
+    np.testing.assert_array_equal(read["persson"], found.theories["Persson"])
+    assert read.scalars()["rms_slope"] == (found.statistics.rms_slope, "-")
+    assert found.plot.available[-1] == "area"
 
 
 @pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")

@@ -126,11 +126,15 @@ def pairwise(cases):
     Greedy, in the order of the cases: the next is the first of those with most pairs not yet held.
     An absent effect is a level too, so that each effect runs at least once without each other one.
     """
-    pairs = [{frozenset(pair) for pair in itertools.combinations(c.items(), 2)} for c in cases]
-    missing, chosen = set().union(*pairs), []
+    levels, bits, pairs = {}, {}, []  # a bit for each pair: this runs whenever tests are collected
+    for case in cases:
+        held = [levels.setdefault(level, len(levels)) for level in case.items()]
+        numbers = (bits.setdefault(p, len(bits)) for p in itertools.combinations(held, 2))
+        pairs.append(sum(1 << number for number in numbers))
+    missing, chosen = (1 << len(bits)) - 1, []
     while missing:
-        best = max(range(len(cases)), key=lambda i: len(pairs[i] & missing))
-        missing -= pairs[best]
+        best = max(range(len(cases)), key=lambda i: (pairs[i] & missing).bit_count())
+        missing &= ~pairs[best]
         chosen.append(cases[best])
     return chosen
 

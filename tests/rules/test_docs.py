@@ -103,7 +103,7 @@ def test_every_measured_block_is_there_once_and_filled():
     found = [block for page in pages for block in re.findall(pattern, page, re.S)]
     names = [name for name, _ in found]
     assert len(names) == len(set(names)) == sum(page.count("<!-- measured:") for page in pages)
-    assert set(script("measure_contact").TABLES) <= set(names)
+    assert {f"bridges {name}" for name in script("measure_bridges").TABLES} <= set(names)
     assert [name for name, body in found if not body.strip()] == []
 
 

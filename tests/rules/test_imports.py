@@ -7,6 +7,7 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+from sources import tree
 
 from contactkit._lazy import ABOVE
 
@@ -108,15 +109,14 @@ def imports(name, source, known=MODULES, with_types=True):
             if with_types or not is_for_types(node) or child in node.orelse:
                 yield from visit(child)
 
-    return set(visit(ast.parse(source)))
+    return set(visit(source if isinstance(source, ast.Module) else ast.parse(source)))
 
 
 @functools.cache
 def all_imports(with_types=True):
     """What each module imports."""
     return {
-        name: imports(name, path.read_text("utf-8"), with_types=with_types)
-        for name, path in MODULES.items()
+        name: imports(name, tree(path), with_types=with_types) for name, path in MODULES.items()
     }
 
 

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
+from sources import tree
 
 from contactkit.reading.limits import LIMITS
 
@@ -53,10 +54,16 @@ OUTSIDE = {
 
 
 def calls(path):
-    """Names of what a module calls."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    """Names of what a module calls: the last of it, and whose it is."""
+    for node in ast.walk(tree(path)):
         if isinstance(node, ast.Call):
-            yield ast.unparse(node.func)
+            owner = last_name(getattr(node.func, "value", None))
+            yield f"{owner}.{last_name(node.func)}"
+
+
+def last_name(node):
+    """What follows the last dot of a name; nothing of other expressions."""
+    return getattr(node, "attr", getattr(node, "id", ""))
 
 
 def callers():

@@ -184,7 +184,7 @@ def made(base=SeparationForce, decorate=True, **body):
         (made(column=None), "Weight needs column"),
         (made(prepare=None), "Weight needs prepare"),
         (made(decorate=False), r"decorate Weight with @attrs.frozen"),
-        (ck.Material, "give a class whose base class is a role"),
+        (ck.Layer, "give a class whose base class is a role"),
         (ck.ViscousForce(), "give a class whose base class is a role"),
     ],
 )

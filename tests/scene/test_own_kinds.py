@@ -10,11 +10,13 @@ import pytest
 from attrs import evolve, field, frozen
 
 import contactkit as ck
+from contactkit.app.scene_fmu import fmu_start
 from contactkit.contact.effects.attraction_laws import AttractionLaw, TensionLaw
 from contactkit.errors import DescriptionError
 from contactkit.fmu.native.film import free_liquid, prepared_film
 from contactkit.liquids.temperature_laws import TemperatureLaw
 from contactkit.scene.loading import ContactLoading, ImposedForce
+from contactkit.scene.materials import Solid
 from contactkit.scene.surfaces import ShortWave, Surface
 from contactkit.units import si
 from contactkit.validators import positive
@@ -122,6 +124,35 @@ class LinearAttraction(AttractionLaw):
         return TensionLaw(tension, energy, (), 2.0 * w / r, r, 2.0 * w / r**2)
 
 
+@frozen(kw_only=True)
+class Graded(Solid):
+    """A coating whose modulus falls linearly to that of the steel below it, in equal layers."""
+
+    kind = "graded"
+    top_modulus: float = field(validator=positive, metadata=si("Pa"))
+    thickness: float = field(validator=positive, metadata=si("m"))
+    n_layers: int = 4
+
+    @property
+    def stack(self):
+        moduli = np.linspace(self.top_modulus, STEEL.young_modulus, self.n_layers + 1)[:-1]
+        each = self.thickness / self.n_layers
+        layers = (evolve(STEEL, young_modulus=float(one)) for one in moduli)
+        return ck.Stack(
+            layers=tuple(ck.Layer(material=one, thickness=each) for one in layers), substrate=STEEL
+        )
+
+
+@frozen(kw_only=True)
+class Soft(ck.Material):
+    """A material that files could not tell from a `Material`."""
+
+
+@frozen(kw_only=True)
+class Foam(ck.Meniscus):
+    """A meniscus that files could not tell from a `Meniscus`."""
+
+
 OIL = ck.Liquid(
     name="oil",
     viscosity=Arrhenius(
@@ -130,7 +161,7 @@ OIL = ck.Liquid(
     surface_tension=0.03,
 )
 HALF_SPACE = ck.HalfSpace()
-OWN = (Cone, Ripple, DeadWeight, StandardPull, Arrhenius, LinearAttraction)
+OWN = (Cone, Ripple, DeadWeight, StandardPull, Arrhenius, LinearAttraction, Graded)
 
 
 @pytest.fixture
@@ -253,6 +284,60 @@ def test_an_attraction_of_ones_own_pulls_off_a_sphere(tmp_path):
     assert ck.load_scene(path) == scene
 
 
+@pytest.mark.usefixtures("registered")
+@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+def test_a_solid_of_ones_own_is_pressed_saved_varied_and_stops_a_valve(tmp_path):
+    coating = Graded(top_modulus=50e9, thickness=4e-6)
+
+    def pressed(solid):
+        return ck.ContactScene(
+            interface=ck.Interface(lower=ck.Body(solid=solid), upper=ck.Paraboloid(radius=1e-3)),
+            window=ck.Window(width=40e-6, periodic=False),
+            loading=ck.Pressing(force=0.02),
+            effects=(ck.LayeredHalfSpace(),),
+        )
+
+    accuracy = ck.Accuracy(grid=32, rtol=1e-6)
+    own, same = pressed(coating), pressed(coating.stack)
+    result = ck.solve(ck.plan(own, accuracy))
+    assert result.approach == ck.solve(ck.plan(same, accuracy)).approach
+    path = ck.save_scene(own, tmp_path / "graded.toml")
+    assert 'kind = "graded"' in path.read_text("utf-8")
+    assert ck.load_scene(path) == own
+    assert ck.load_result(result.save(tmp_path / "graded")).plan.scene == own
+    study = ck.study(own, {"interface.lower.solid.top_modulus": ["50 GPa", "200 GPa"]}, accuracy)
+    soft, hard = study.column("approach")
+    assert soft == result.approach > 1.2 * hard
+    heights = np.zeros((8, 8))
+    heights[4, 4] = 1e-9
+    assert ck.press(heights, 1e-6, coating, 1e5).has(ck.LayeredHalfSpace)
+
+
+@pytest.mark.slow  # 2 s
+@pytest.mark.usefixtures("registered")
+@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+def test_a_solid_of_ones_own_has_the_curve_of_a_stop():
+    coating = Graded(top_modulus=50e9, thickness=4e-6)
+    scene = contact(ck.Paraboloid(radius=1e-3), (ck.LayeredHalfSpace(),), width=40e-6)
+    lower = ck.Body(solid=coating)
+    scene = evolve(scene, interface=evolve(scene.interface, lower=lower))
+    start = fmu_start(scene, ck.Accuracy(grid=24, rtol=1e-5))
+    assert start.name == "contact-stop"
+
+
+def test_materials_and_stacks_are_written_without_their_kind_and_read_with_it(tmp_path):
+    scene = contact(ck.Flat())
+    path = ck.save_scene(scene, tmp_path / "steel.toml")
+    text = path.read_text("utf-8")
+    assert "material" not in text
+    named = text.replace("young_modulus", 'kind = "material"\nyoung_modulus')
+    path.write_text(named, encoding="utf-8")
+    assert ck.load_scene(path) == scene
+    path.write_text(named.replace('"material"', '"graided"'), encoding="utf-8")
+    with pytest.raises(DescriptionError, match="kind must name a known kind, got 'graided'"):
+        ck.load_scene(path)
+
+
 # Refused by name --------------------------------------------------------------------------------
 
 
@@ -266,10 +351,36 @@ def test_what_is_not_registered_is_not_written(tmp_path):
             (ck.Adhesion(law=LinearAttraction(work_of_adhesion=0.1, range=1e-9)), ck.HalfSpace()),
         ),
     }
+    soft = Soft(young_modulus=1e9, poisson_ratio=0.3)
+    layer = ck.Layer(material=soft, thickness=1e-6)
+    for solid in (soft, ck.Stack(layers=(layer,), substrate=STEEL)):
+        lower = ck.Body(solid=solid)
+        scenes["Soft"] = evolve(
+            contact(ck.Flat()), interface=ck.Interface(lower=lower, upper=ck.Flat())
+        )
+        with pytest.raises(DescriptionError, match=r"register it first: ck.register\(Soft\)"):
+            ck.save_scene(scenes["Soft"], tmp_path / "own.toml")
     for name, scene in scenes.items():
         with pytest.raises(DescriptionError, match=rf"register it first: ck.register\({name}\)"):
             ck.save_scene(scene, tmp_path / "own.toml")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_class_that_files_could_not_tell_from_its_base_is_refused(tmp_path):
+    """A meniscus is no kind: one of one's own would come back as a plain one."""
+    scene = film()
+    foam = Foam(liquid=OIL, volume=1e-11)
+    made = evolve(scene, interface=evolve(scene.interface, meniscus=foam))
+    with pytest.raises(DescriptionError, match=r"interface\.meniscus must be a Meniscus itself"):
+        ck.save_scene(made, tmp_path / "own.toml")
+
+
+def test_a_solid_that_is_no_stack_is_refused_by_name():
+    kind = frozen(kw_only=True)(type("Jelly", (Solid,), {"kind": "jelly", "stack": 3.0}))
+    scene = contact(ck.Flat())
+    made = evolve(scene, interface=ck.Interface(lower=ck.Body(solid=kind()), upper=ck.Flat()))
+    with pytest.raises(ck.PlanError, match=r"Jelly\.stack must be a Stack"):
+        ck.plan(made, ck.Accuracy(grid=16))
 
 
 def test_a_surface_without_heights_is_refused_by_name():
@@ -306,7 +417,7 @@ def test_a_surface_that_is_not_complete_is_not_registered(changes, message):
 
 def test_what_is_of_no_family_is_not_registered():
     with pytest.raises(DescriptionError, match=r"base class is a role .* or Surface or "):
-        ck.register(ck.Material)
+        ck.register(ck.Layer)
 
 
 # Installed --------------------------------------------------------------------------------------

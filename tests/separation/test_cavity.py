@@ -261,7 +261,7 @@ def test_a_face_that_closes_meets_no_full_film_above_the_gap_of_rupture():
     assert void > 0.6 * math.pi * FACE**2 * open_.gap
     gaps, state = [], open_
     while state.cavity.phase is not Phase.FULL and state.time < 5e-3:
-        state = advance(plan, state, Pull(-40.0), 1e-6)
+        state = advance(plan, state, Pull(-40.0), 4e-6)
         gaps.append(state.gap)
     # never more than the liquid that was left, and what has come in since
     assert 5e-6 < gaps[-1] < 12e-6

@@ -1,11 +1,13 @@
 """Curves of separations: straight lines between their points are right to the stated error."""
 
+import itertools
 import math
 
 import attrs
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from selection import quick
 
 import contactkit as ck
 from contactkit.files.results import save_csv
@@ -90,7 +92,8 @@ def departures(found, exact, along="time", n=1000):
     return worst
 
 
-LONG = {"massless", "cavity that reforms", "cut-off pressure", "shear", "closes first"}
+LONG = {"stiffer", "massless", "cavity that reforms", "cut-off pressure", "shear", "closes first"}
+LONG |= {"inertial", "ramp from rest", "ball"}
 
 
 @pytest.mark.parametrize(
@@ -244,9 +247,16 @@ def vibrated(scene, amplitude, phase=0.3, **loading):
     return attrs.evolve(scene, loading=ck.ImposedSpeed(**given, vibration=vibration))
 
 
-@pytest.mark.parametrize("amplitude", [1e-9, 1e-6, 4.8e-6])
-@pytest.mark.parametrize("frequency", [70.0, 300.0, 5e4])
-@pytest.mark.parametrize("is_cut", [False, True])
+@pytest.mark.parametrize(
+    ("amplitude", "frequency", "is_cut"),
+    quick(
+        list(itertools.product([1e-9, 1e-6, 4.8e-6], [70.0, 300.0, 5e4], [False, True])),
+        0,  # nanometres at 70 Hz
+        9,  # a micrometre at 300 Hz, cut
+        14,  # nearly closed at 300 Hz
+        17,  # and at 50 kHz, cut
+    ),
+)
 def test_lines_over_cycles_are_right(amplitude, frequency, is_cut):
     """Gap, speed, force and impulse by their formulas; 1e6 Pa at most where the pressure is cut."""
     scene = film(*([CUT] if is_cut else []), viscosity=0.1)
@@ -281,7 +291,7 @@ def test_lines_over_cycles_are_right(amplitude, frequency, is_cut):
 @pytest.mark.parametrize(
     "scene",
     [
-        vibrated(film(CAVITATING, viscosity=0.1), 2e-6),
+        pytest.param(vibrated(film(CAVITATING, viscosity=0.1), 2e-6), marks=pytest.mark.slow),
         pytest.param(
             vibrated(film(ck.TensionLimit(strength="vapour"), viscosity=0.1), 5e-7, phase=1.3),
             marks=pytest.mark.slow,

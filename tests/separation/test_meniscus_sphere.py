@@ -28,7 +28,7 @@ def exact(gap, profile):
 
 
 @pytest.mark.parametrize("profile", ["arc", "as-published"])
-@pytest.mark.parametrize("fraction", [1e-6, 0.1, 0.5, 0.9, 0.99, 0.9999])
+@pytest.mark.parametrize("fraction", quick([1e-6, 0.1, 0.5, 0.9, 0.99, 0.9999], 0, 2, 5))
 def test_the_curve_is_the_force_up_to_the_end(film_scene, profile, fraction):
     """As printed the force grows without bound as the neck closes; a plain spline rang there."""
     scene = film_scene(

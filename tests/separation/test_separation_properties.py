@@ -234,7 +234,7 @@ def test_a_motion_scales_with_its_lengths_forces_and_times(length, force, time):
 
 
 @given(
-    parts=st.lists(st.floats(0.01, 1.0), min_size=2, max_size=30),
+    parts=st.lists(st.floats(0.01, 1.0), min_size=2, max_size=12),
     gap=decades(-8.0, -5.0),
     viscosity=decades(-3.0, 1.0),
 )

@@ -10,6 +10,7 @@ import loadings
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from selection import quick
 
 import contactkit as ck
 from contactkit.cli import main
@@ -45,7 +46,7 @@ def shaken(amplitude, frequency=20.0, phase=0.0):
 
 
 @pytest.mark.parametrize("amplitude", [1e-9, 1e-6, 4.9e-6])
-@pytest.mark.parametrize("frequency", [3.3, 20.0, 1e4])
+@pytest.mark.parametrize("frequency", quick([3.3, 20.0, 1e4], 1))
 @pytest.mark.parametrize("body", [FACE, ck.Sphere(radius=0.1)])
 def test_a_newtonian_film_keeps_its_impulse(amplitude, frequency, body):
     """The path in time changes nothing; kinks, parts of cycles and cycles left out included."""

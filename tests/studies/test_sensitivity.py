@@ -46,7 +46,7 @@ def found(film):
 def test_answers_are_those_of_the_law(film, found):
     base = 3.0 * math.pi * 0.1 * 1e-3**4 * 1e-3 / (2.0 * 5e-6**3)
     assert found.base == pytest.approx(base, rel=1e-6)
-    assert found.unit == "N"
+    assert found.quantity_unit == found.unit("least") == "N"
     for path, values, factors in (
         ("loading.speed", (0.9e-3, 1.05e-3, 1.2e-3), (0.9, 1.05, 1.2)),
         (VISCOSITY, (0.01, math.sqrt(0.004), 0.4), (0.1, math.sqrt(0.4), 4.0)),  # by ratios
@@ -85,7 +85,21 @@ def test_text_and_files(found, tmp_path):
     assert frame["greatest"][0] == pytest.approx(4.0 * found.base)
 
 
-def test_what_has_no_result_comes_first_and_says_why(film):
+def test_a_sensitivity_is_a_curve_over_its_assumptions(found, tmp_path):
+    assert (found.axis, found.status) == ("assumption", "complete")
+    assert found.message == "peak_force = 3.77 N"
+    assert found.scalars() == {"base": (found.base, "N")}
+    assert "Reynolds" in found.cite() or "Stefan" in found.cite()
+    read = ck.read_curve(found.save(tmp_path / "tornado"))
+    assert read["assumption"].tolist() == [one.path for one in found.influences]
+    np.testing.assert_array_equal(read["greatest"], found["greatest"])
+    tried = read.parts["influences"][VISCOSITY]
+    assert (tried["values"], tried["unit"]) == (found.influences[0].values, "Pa.s")
+    assert tried["results"] == found.influences[0].results
+    assert read.sources == found.sources
+
+
+def test_what_has_no_result_comes_first_and_says_why(film, tmp_path):
     def gap_over(scene):
         if scene.loading.initial_gap > 5e-6:
             raise ck.InfeasibleError("too far")
@@ -94,11 +108,17 @@ def test_what_has_no_result_comes_first_and_says_why(film):
     ranges = {"loading.speed": (1e-4, 1e-2), "loading.initial_gap": (4e-6, 6e-6)}
     got = ck.sensitivity(film, ranges, gap_over, unit="m")
     first, last = got.influences
-    assert (first.path, got.quantity, got.unit) == ("loading.initial_gap", "gap over", "m")
+    assert (first.path, got.quantity, got.quantity_unit) == ("loading.initial_gap", "gap over", "m")
     assert first.has_gaps
     assert first.swing(got.base) == math.inf
     assert last.results == (5e-6, 5e-6)
-    assert "too far" in got.table()
+    assert "too far" in str(got)
+    assert (got.status, got.message) == (
+        "incomplete",
+        "gap over = 5 um; none somewhere in the range of loading.initial_gap",
+    )
+    read = ck.read_curve(got.save(tmp_path / "gaps"))
+    assert math.isnan(read.parts["influences"]["loading.initial_gap"]["results"][1])
 
 
 def test_assumptions_that_vary_together_may_be_a_tuple(film):

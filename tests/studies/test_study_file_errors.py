@@ -129,9 +129,9 @@ def test_a_status_is_not_cut(path):
 
 
 def test_a_long_message_is_cut_when_it_is_written(tmp_path):
-    varied = check_axes(film(), VARY, QUICK)
+    varied, sources = check_axes(film(), VARY, QUICK)
     failed = StudyPoint({}, {}, "failed", "m" * 10**7, 0.0, notes=("n" * 10**7,))
-    with StudyWriter(tmp_path / "a", film(), QUICK, varied) as writer:
+    with StudyWriter(tmp_path / "a", film(), QUICK, varied, sources) as writer:
         writer.write([Done(0, failed, None)])
     (row,) = ck.StudyFile(tmp_path / "a").failed()
     assert row.message == "m" * 10_000
@@ -168,9 +168,9 @@ def test_an_empty_file_is_a_new_one(tmp_path):
 
 
 def test_a_full_disk_names_the_file_and_keeps_what_is_there(tmp_path, monkeypatch):
-    varied = check_axes(film(), VARY, QUICK)
+    varied, sources = check_axes(film(), VARY, QUICK)
     point = StudyPoint({}, {}, "curve", "", 0.0)
-    with StudyWriter(tmp_path / "a", film(), QUICK, varied) as writer:
+    with StudyWriter(tmp_path / "a", film(), QUICK, varied, sources) as writer:
         writer.write([Done(0, point, None)])
         writer._base.commit()
         writer._base.execute("PRAGMA max_page_count = 1")  # no page more than there are

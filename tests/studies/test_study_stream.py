@@ -73,6 +73,29 @@ def test_a_streamed_study_has_the_columns_of_a_study(tmp_path):
     assert list(found.column("status")) == list(wanted.column("status"))
     assert fractions[-1] == 1.0
     assert fractions == sorted(fractions)
+    assert (found.status, found.message) == ("complete", "12 points over initial_gap, time")
+    assert found.scalars().keys() - {"n_done"} == wanted.scalars().keys() - {"n_solved"}
+    assert found.cite() == wanted.cite() != ""
+    assert found.number_names == wanted.number_names
+    assert found.telling() == wanted.telling()
+    assert [line.label for line in found.lines(GAPS)] == [x.label for x in wanted.lines(GAPS)]
+    saved, same = (
+        ck.read_curve(one.save(tmp_path / n)) for n, one in ((".f", found), (".s", wanted))
+    )
+    assert (saved.units, saved.sources) == (same.units, same.sources)
+    assert (saved.parts["paths"], saved.parts["shape"]) == (
+        same.parts["paths"],
+        same.parts["shape"],
+    )
+    np.testing.assert_array_equal(saved["viscous_impulse"], same["viscous_impulse"])
+    assert found.plot.available == wanted.plot.available
+    assert len(found.plot.number("viscous_impulse").lines) == 3
+
+
+def test_sources_of_a_streamed_study_are_those_of_all_choices(tmp_path):
+    vary = {"effects.meniscus-force.profile": ["arc", "exact"]}
+    found = ck.stream_study(film(), vary, tmp_path / "oil", QUICK)
+    assert found.cite() == ck.study(film(), vary, QUICK).cite()
 
 
 def test_contacts_start_from_their_neighbours_and_agree(tmp_path):
@@ -103,6 +126,8 @@ def test_an_interrupted_study_continues_and_another_one_is_refused(tmp_path, mon
     with pytest.raises(KeyboardInterrupt):
         ck.stream_study(film(), VARY, tmp_path / "oil", QUICK, progress=stop)
     part = ck.StudyFile(tmp_path / "oil")
+    assert part.status == "incomplete"
+    assert part.message.endswith(f"; {12 - part.n_done} not solved yet")
     assert 0 < part.n_done < part.n_points == 12
     assert np.isnan(part.column("viscous_impulse")).sum() == 12 - part.n_done
     seconds = part.column("seconds")
@@ -170,6 +195,7 @@ def test_what_is_no_file_of_a_study_is_refused(tmp_path, text, message):
         ("UPDATE points SET viscous_impulse = 'much'", "'much' in the column"),
         ("CREATE VIEW all_of AS SELECT * FROM points", "no views, triggers"),
         ("DROP TABLE points", "it has no table points"),
+        ("UPDATE header SET value = '[1]' WHERE key = 'sources'", "sources or counts are no list"),
     ],
 )
 def test_a_file_of_a_study_that_was_changed_is_refused(tmp_path, change, message):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from decimal import Decimal, localcontext
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,14 +12,13 @@ from scipy.linalg import expm, null_space
 
 from ...contact.solver.contact_solver import ContactSolver
 from ...elasticity import layered
-from ...reading.texts import from_json
+from ..references.tables import reference
 from .case import Found
 from .contacts import gradient, polonsky_keer, rough, violation
 
 __all__ = ["incompressible", "stiff_film", "thick"]
 
 Array = NDArray[np.float64]
-_TABLE = Path(__file__).with_name("disk_compliance.json")  # [1/nm], [1/GPa]; of 60 digits
 
 
 def transfer_matrix(
@@ -58,8 +56,8 @@ def transfer_matrix(
 
 def thick() -> Found:
     """Both methods at the wavenumbers of the disk, in the table of 60 digits."""
-    one = from_json(_TABLE.read_text("utf-8"), _TABLE.name)
-    alpha, exact = np.array(one["rows"]).T
+    one = reference("layered")["stacks"]["disk_table2.1"]  # [1/nm], [1/GPa]
+    alpha, _, _, exact, _ = np.array(one["rows"]).T
     elastic = one["young_modulus"], one["poisson_ratio"], one["thickness"]
     ours = layered.compliance(alpha, *elastic).C
     with np.errstate(all="ignore"):

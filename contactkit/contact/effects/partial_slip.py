@@ -167,7 +167,7 @@ class PartialSlip(SurfaceTraction[PartialSlipPart]):
     ...         ck.PartialSlip(coefficient=0.3, path=(ck.TangentialStep(ratio=0.6),)),
     ...     ),
     ... )
-    >>> part = ck.solve(ck.plan(scene, ck.Accuracy(grid=64))).of(ck.PartialSlip)
+    >>> part = ck.solve(ck.plan(scene, ck.Accuracy(grid=32))).of(ck.PartialSlip)
     >>> f"{part.force[-1]:.2f} N, {part.displacement[-1] * 1e9:.1f} nm"
     '0.18 N, 76.0 nm'
 

@@ -27,7 +27,14 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["UnitDamping", "face_damping", "rough_damping", "tabulate_damping", "unit_damping"]
+__all__ = [
+    "UnitDamping",
+    "face_damping",
+    "rough_damping",
+    "tabulate_damping",
+    "unchecked_rough_damping",
+    "unit_damping",
+]
 
 POINTS = 24
 """Gaps of a table, evenly spaced in their logarithms."""
@@ -217,9 +224,26 @@ def rough_damping(
     heights = np.asarray(roughness, dtype=float)
     if heights.ndim != 2:
         raise DescriptionError("rough_damping.roughness", heights.shape, "be a map")
-    heights = heights - heights.mean()
+    found = unchecked_rough_damping(
+        face, gaps, heights, pixel_size, points=points, copies=copies, solver=solver
+    )
+    warn([roughness_number(found.gaps[0], float(heights.std()))])
+    return found
+
+
+def unchecked_rough_damping(
+    face: Face,
+    gaps: Sequence[float],
+    roughness: Array,
+    pixel_size: float | tuple[float, float],
+    *,
+    points: int = POINTS,
+    copies: int = 1,
+    solver: str | None = None,
+) -> TabulatedDamping:
+    """See `rough_damping`, without a warning."""
+    heights = roughness - roughness.mean()
     nodes = _nodes(gaps, 0.0, points)
-    warn([roughness_number(nodes[0], float(heights.std()))])
     coefficients, onsets = [], []
     for gap in nodes:
         conductivity = patch_factors(gap - heights, pixel_size, 0.0, solver).conductivity

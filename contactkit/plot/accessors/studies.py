@@ -1,14 +1,13 @@
-"""Figures of a study and of a sensitivity, ``study.plot``."""
+"""Figures of studies, in memory or in a file, and of a sensitivity, ``study.plot``."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
 
 from ...errors import DescriptionError
+from ...studies.columns import StudyColumns
 from ...studies.sensitivity import Sensitivity
-from ...studies.table import Study
 from ..axis_units import axis_label, readable
 from ..study import study_curves
 from ..style import Axes, figure, legend
@@ -18,8 +17,8 @@ from .base import Figures, registered_figures
 __all__ = ["SensitivityFigures", "StudyFigures"]
 
 
-@registered_figures.register(Study)
-class StudyFigures(Figures[Study[Any]]):
+@registered_figures.register(StudyColumns)
+class StudyFigures(Figures[StudyColumns]):
     """Figures of the numbers of a study over its parameters."""
 
     def pictures(self) -> dict[str, Callable[[], Axes]]:
@@ -91,7 +90,7 @@ class SensitivityFigures(Figures[Sensitivity]):
         return tornado(found, ax, most=most, names=names, missing=missing)
 
 
-def _of_parameter(study: Study[Any], path: str) -> tuple[float, str]:
+def _of_parameter(study: StudyColumns, path: str) -> tuple[float, str]:
     """Factor and name of the unit of a parameter; of one that is no number, none."""
     values = study.column(path)
     return readable(study.unit(path), values) if values.dtype.kind == "f" else (1.0, "-")

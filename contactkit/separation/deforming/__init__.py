@@ -6,6 +6,6 @@ checks    What such a scene may not have.
 plan      Plan: the film of smooth bodies, its numbers and notes.
 run       The motion, and its result.
 validity  Ranges of validity along a run.
-maxwell   Rigid film in series with a spring, its first correction, and why no FMU has more.
+maxwell   Rigid film in series with a spring, its first correction.
 result    Result: curves, sections, numbers.
 """

@@ -30,22 +30,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
-from attrs import evolve
-
-from ...errors import PlanError
-from ...scene.loading import ImposedForce
-from ...units import quantity_text
-from .effects import ElasticBodies
-from .plan import DeformingPlan, plan_deforming
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...scene.scenes import SeparationScene
-
     Floats = NDArray[np.float64]
 
-__all__ = ["HOLDS_TO", "refuse_fmu", "series_error", "series_pull", "series_stiffness"]
+__all__ = ["HOLDS_TO", "series_error", "series_pull", "series_stiffness"]
 
 HOLDS_TO = 0.02
 """beta up to which the largest force is right to 2 %."""
@@ -120,50 +111,3 @@ def series_pull(
     )
     force: Floats = found.y[0]
     return force
-
-
-def refuse_fmu(scene: SeparationScene) -> None:
-    """Refuse an FMU of bodies that deform, with the spring that stands for them and its error.
-
-    Raises
-    ------
-    PlanError
-        Of each scene with `ElasticBodies`.
-    """
-    if scene.effect(ElasticBodies) is None:
-        return
-    loading = scene.loading
-    is_input = False
-    if isinstance(loading, ImposedForce) and loading.force <= 0.0:
-        # The pull is an input of an FMU, and may be 0 in its scene.
-        is_input, scene = True, evolve(scene, loading=evolve(loading, force=1.0))
-    made = plan_deforming(scene)
-    raise PlanError(f"no FMU holds ElasticBodies yet: {_cure(made, is_input)}")
-
-
-def _cure(plan: DeformingPlan, is_input: bool) -> str:
-    film, beta = plan.film, plan.numbers.beta
-    stiffness = quantity_text(series_stiffness(film.radius, film.width, plan.modulus), "N/m")
-    part = 1.5 if math.isinf(film.radius) else 6.0
-    limit = HOLDS_TO * part * math.pi * plan.modulus * film.width * film.gap
-    series = (
-        f"leave it out, give the FMU a small mass and put a spring of {stiffness} between it and "
-        "the body"
-    )
-    up_to = f"up to pulls of {quantity_text(limit, 'N')}, beta = {HOLDS_TO:g}"
-    if is_input:
-        return (
-            f"{series}, by which the largest force is right to 2 % {up_to}; beyond, run the scene "
-            "itself, ck.simulate"
-        )
-    error = f"{series_error(min(beta, 1.0)):.2g} of it"
-    if beta > HOLDS_TO:
-        return (
-            f"beta = {beta:.3g}, and rigid bodies in series with a spring, the FMU that is "
-            f"possible {up_to}, would miss the largest force by {error} or more; run the scene "
-            "itself, ck.simulate, or lower the pull"
-        )
-    return (
-        f"beta = {beta:.3g}: {series}, by which the largest force is right to {error}, and the "
-        "force to 5 % of that while it builds up"
-    )

@@ -72,12 +72,13 @@ class PreparedScene(Generic[S_co]):
 
     @cached_property
     def face_film(self) -> FaceFilm | None:
-        """Full film on a face that is no disc; None between discs and under a sphere on one."""
+        """Full film on a face up to its rim (`on_face`); None between discs and under spheres."""
+        from ..face.shape import on_face, shape_of
+
         loading = self.scene.loading
-        if self.scene.interface.has_discs or isinstance(loading, Sliding):
+        if isinstance(loading, Sliding) or not on_face(self.scene):
             return None
         from ..face.film import face_film
-        from ..face.shape import shape_of
 
         gaps = loading.smallest_gap, loading.final_gap
         return face_film(shape_of(self.scene.interface), gaps, self.accuracy.film_rtol)

@@ -15,11 +15,12 @@ from ...lubrication import squeeze_film as squeeze
 from ...scene.column import Column
 from ...scene.loading import ImposedForce, ImposedTime
 from ...scene.scenes import SlidingScene
+from ...scene.surfaces import Flat
 from ...units import si
 from ...validators import choice, finite, optional, positive
 from ...validity import ValidityNumber
 from ..cavity.law import Cavitation, CavityLaw
-from ..face.shape import closed_form, shape_of
+from ..face.shape import closed_form, on_face, shape_of
 from .base import CAVITY, FilmLimit, ForcePart, Limiter, LimitKind, SeparationForce
 from .constant_force import constant_force_time
 from .film_shape import FilmShape, film_shape, needs_extent
@@ -177,9 +178,11 @@ class ViscousForce(SeparationForce):
         """See `Effect.cites`."""
         flats, sphere = self.sources
         if not scene.interface.has_discs:
-            known = closed_form(shape_of(scene.interface))
+            shape = shape_of(scene.interface)
+            known = closed_form(shape)
             by = "finite volumes" if known is None else known.law.source
-            return (f"Reynolds 1886: {by}",)
+            rough = "flow factors of a rough gap: homogenisation; Patir and Cheng 1978"
+            return (f"Reynolds 1886: {by}", *((rough,) if shape.roughness is not None else ()))
         return (flats,) if scene.interface.is_flat else (sphere,)
 
     @property
@@ -198,7 +201,7 @@ class ViscousForce(SeparationForce):
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
-        if not scene.interface.has_discs:
+        if on_face(scene):
             return _needs_of_face(scene)
         missing: tuple[str, ...] = ()
         if scene.meniscus.has_pressure and self.closure != "volume-conserving":
@@ -248,9 +251,19 @@ class ViscousForce(SeparationForce):
 def _needs_of_face(scene: SeparationScene) -> tuple[str, ...]:
     """What a film on a face that is no disc does not go with."""
     meniscus, viscous = scene.meniscus, scene.effect(ViscousForce)
+    faces = scene.interface.faces
+    rough = [face for face in faces if face.roughness is not None]
+    cure = ' (or cavity="truncated")' if scene.interface.has_discs else ""
+    is_fine = not rough or (len(rough) == 1 and not any(map(_is_uneven, faces)))
     needs = {
-        "a flooded film, without interface.meniscus.volume or a pressure: the rim of one that "
-        "draws in from a face that is no disc is not known": meniscus.volume is None
+        f"a Flat with a radius [m] or a planform, up to whose rim a cavity is followed{cure}": any(
+            face.outline is not None for face in faces
+        ),
+        "FineRoughness on one face, that of both together, and even faces; beside tilt, crown, "
+        "sphere, recesses or a relief give the roughness as part of the relief": is_fine
+        and (not rough or scene.interface.is_flat),
+        f"a flooded film, without interface.meniscus.volume or a pressure: the rim of one that "
+        f"draws in from a face that is no disc is not known{cure}": meniscus.volume is None
         and not meniscus.has_pressure,
         "interface.meniscus.count = 1: a face that is no disc is not shared out": meniscus.count
         == 1,
@@ -258,6 +271,12 @@ def _needs_of_face(scene: SeparationScene) -> tuple[str, ...]:
         or not viscous.takes_printed(),
     }
     return tuple(need for need, is_met in needs.items() if not is_met)
+
+
+def _is_uneven(face: Flat) -> bool:
+    """Whether a face has more than one height, its fine roughness apart."""
+    is_level = face.tilt == (0.0, 0.0) and face.crown_radius is None
+    return not is_level or face.relief is not None or bool(face.recesses)
 
 
 def _face_law(film: FaceFilm, viscosity: float) -> ForceLaw:
@@ -384,7 +403,8 @@ class TensionLimit(FilmLimit):
     ambient_pressure : float
         Pressure around the film [Pa].
     cavity : {"mass-conserving", "truncated", "reynolds"}
-        ``"mass-conserving"`` (Jakobsson, Floberg and Olsson), between flats: the cavity has an
+        ``"mass-conserving"`` (Jakobsson, Floberg and Olsson), between flats, and under a sphere
+        on a flooded face with a rim: the cavity has an
         edge, and the film remembers its ruptures until liquid has come back to it. The others
         remember nothing, and have one pressure, that of inception too: ``"truncated"``,
         the pressure profile cut off (Gumbel); ``"reynolds"``, between flats, a cavity whose edge
@@ -457,14 +477,25 @@ class TensionLimit(FilmLimit):
             return ("Swift-Stieber condition at the cavity edge; Resch and Scheidl 2014",)
         return ("parabolic pressure truncated at the limit; Scheidl and Gradl 2016",)
 
+    @property
+    def follows_cavity(self) -> bool:
+        """Whether the cavity has an edge, and is remembered."""
+        return self.cavity == "mass-conserving"
+
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
+        if any(face.roughness is not None for face in scene.interface.faces):
+            return (
+                "smooth faces: cavities form inside the roughness first, which flow factors do not "
+                "know; give it as a relief",
+            )
         if not scene.interface.has_discs:
-            is_field = self.cavity == "mass-conserving"
-            return () if is_field else ('cavity="mass-conserving" on a face that is no disc',)
-        if self.cavity != "truncated" and not scene.interface.is_flat:
-            return ('two flats (or cavity="truncated")',)
-        if self.cavity == "mass-conserving" and scene.effect(ShearLimit) is not None:
+            return () if self.follows_cavity else ('cavity="mass-conserving" on such a face',)
+        if self.cavity == "reynolds" and not scene.interface.is_flat:
+            return ('two flats (or cavity="truncated", or "mass-conserving")',)
+        if on_face(scene) and scene.effect(ViscousForce) is None:
+            return ("ViscousForce beside it, under a sphere",)
+        if self.follows_cavity and scene.effect(ShearLimit) is not None:
             return ('no ShearLimit beside it (or cavity="truncated")',)
         return ()
 
@@ -478,7 +509,7 @@ class TensionLimit(FilmLimit):
 
     def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> Cavitation | None:
         """See `FilmLimit.cavity_law`."""
-        if self.cavity != "mass-conserving":
+        if not self.follows_cavity:
             return None
         if prepared.face_film is not None:
             return self._face_cavity(prepared, prepared.face_film)
@@ -663,6 +694,7 @@ def _grid_error(prepared: PreparedScene[SeparationScene]) -> tuple[ValidityNumbe
     if face is None or not face.cells:
         return ()
     return (
+        *face.numbers,
         ValidityNumber(
             name="error of the film on its grid",
             value=face.error,

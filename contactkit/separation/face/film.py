@@ -9,9 +9,11 @@ from attrs import field, frozen
 
 from ...errors import ConvergenceError
 from ...lubrication.reynolds.damping import DampingLaw
+from ...validity import ValidityNumber
 from .shape import FaceShape, closed_form
 
 if TYPE_CHECKING:
+    from ...scene.surfaces import FineRoughness
     from .grid import FaceGrid
 
 __all__ = ["FaceFilm", "face_film"]
@@ -26,6 +28,9 @@ _PER_DECADE = 8
 _NEARER, _FARTHER = 0.1, 4.0
 """Reach of a table below the smallest and beyond the largest gap of the scene; it is a power of the
 gap from there, which meets the table without a kink."""
+
+_THINNEST = 3.0
+"""Rms heights of fine roughness down to which a table goes: below, contacts block the flow."""
 
 
 @frozen(eq=False)
@@ -44,6 +49,8 @@ class FaceFilm:
         Error of the force [-], by the change from half the cells; 0 of a closed form.
     cells : int
         Cells along the longer side of the grid; 0 of a closed form.
+    numbers : tuple of ValidityNumber
+        Ranges of the flow factors of its roughness.
     """
 
     shape: FaceShape
@@ -52,6 +59,7 @@ class FaceFilm:
     error: float = 0.0
     cells: int = 0
     rtol: float = field(default=1e-3, repr=False)
+    numbers: tuple[ValidityNumber, ...] = field(default=(), repr=False)
 
     def coefficient(self, gap: float) -> float:
         """Damping over viscosity [m] at a gap [m]."""
@@ -113,6 +121,9 @@ def face_film(shape: FaceShape, gaps: tuple[float, float], rtol: float) -> FaceF
     known = closed_form(shape)
     if known is not None:
         return FaceFilm(shape, known.law, known.depth, rtol=rtol)
+    if shape.roughness is not None:
+        smooth = face_film(shape._replace(roughness=None), gaps, rtol)
+        return _rough_film(smooth, shape.roughness, gaps)
     from .grid import gridded
 
     before, cells = _coefficient(gridded(shape, _FEWEST), gaps[0]), 2 * _FEWEST
@@ -125,6 +136,25 @@ def face_film(shape: FaceShape, gaps: tuple[float, float], rtol: float) -> FaceF
         before, cells = found, _finer(cells, error, rtol)
     law, missed = _law(grid, gaps)
     return FaceFilm(shape, law, 0.0, error + missed, cells, rtol)
+
+
+def _rough_film(smooth: FaceFilm, rough: FineRoughness, gaps: tuple[float, float]) -> FaceFilm:
+    """Film on the face of a smooth one, over the gap between the mean planes."""
+    from .rough import rough_law, rough_numbers
+
+    patch, grid = rough.patch(), smooth.gridded(gaps[0])
+    low = min(gaps[0], max(_NEARER * gaps[0], _THINNEST * float(patch[0].std())))
+    high = _FARTHER * gaps[1]
+    exact = None if smooth.cells else smooth.coefficient(low)
+    law = rough_law(grid, patch, (low, high), _points(low, high), exact)
+    numbers = rough_numbers(smooth.shape.outline, patch, gaps[0])
+    cells, shape = max(grid.face.shape), smooth.shape._replace(roughness=rough)
+    return FaceFilm(shape, law, 0.0, smooth.error, cells, smooth.rtol, numbers)
+
+
+def _points(low: float, high: float) -> int:
+    """Gaps of a table between two distances [m]."""
+    return math.ceil(_PER_DECADE * math.log10(high / low)) + 1
 
 
 def _finer(cells: int, error: float, rtol: float) -> int:
@@ -154,7 +184,7 @@ def _law(grid: FaceGrid, gaps: tuple[float, float]) -> tuple[DampingLaw, float]:
     # In the distance from the highest peak of a relief, which is 0 without any.
     peak = -float(grid.relief[grid.face.loaded].min())
     low, high = _NEARER * (gaps[0] - peak), _FARTHER * gaps[1]
-    points = math.ceil(_PER_DECADE * math.log10(high / low)) + 1
+    points = _points(low, high)
     law = tabulate_damping(grid.face, (peak + low, peak + high), grid.relief, points=points)
     # Midway between the points around the smallest gap of the scene.
     step = (high / low) ** (1.0 / (points - 1))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -9,6 +10,8 @@ import numpy as np
 from ...errors import DescriptionError
 from ...lubrication.reynolds.face import Face, Hole, Pocket, rasterise
 from ...scene.faces import FaceHole, SealedHole
+from ...scene.surfaces import Surface, whole_heights
+from ...scene.window import Grid
 from .shape import FaceShape
 
 if TYPE_CHECKING:
@@ -18,7 +21,10 @@ if TYPE_CHECKING:
 
 __all__ = ["FaceGrid", "gridded"]
 
-_FINE = 512  # points across the planform for its nearest place: 1/512 of tilt and crown is missed
+# Points across the planform, as many as the finest film has cells: for its nearest place, of which
+# 1/512 of tilt and crown is missed, and for the heights of a relief that is no map.
+_FINE = 512
+_CURE = "a face is resolved by 512 points; roughness that is finer has flow factors: FineRoughness"
 
 
 class FaceGrid(NamedTuple):
@@ -55,7 +61,7 @@ def gridded(shape: FaceShape, cells: int) -> FaceGrid:
     # Outside the film, where liquid comes from, it may not be nearer than within.
     relief = np.maximum(smooth, 0.0) + _depths(shape, face)
     for one in shape.reliefs:
-        relief = relief - _heights(one, face)
+        relief = relief - _heights(one, shape, face)
     return FaceGrid(face, relief, False)
 
 
@@ -78,15 +84,30 @@ def _smooth(shape: FaceShape, x: Map, y: Map) -> Map:
     return found + 0.5 * shape.curvature * (x * x + y * y)
 
 
-def _heights(relief: Any, face: Face) -> Map:
-    """Heights of a map at the cells [m], by straight lines between its pixels."""
+def _heights(relief: Surface, shape: FaceShape, face: Face) -> Map:
+    """Heights of a relief at the cells [m], by straight lines between its pixels."""
     from scipy.ndimage import map_coordinates
 
-    size = relief.pixel_size
-    dy, dx = size if isinstance(size, tuple) else (size, size)
-    ny, nx = relief.heights.shape
+    grid = _relief_grid(relief, shape)
+    heights = whole_heights(relief, grid, _CURE)
+    (dy, dx), (ny, nx) = grid.pixel_size, grid.shape
     places = np.broadcast_arrays(face.y / dy + 0.5 * (ny - 1), face.x / dx + 0.5 * (nx - 1))
-    return np.asarray(map_coordinates(relief.heights, places, order=1, mode="nearest"))
+    return np.asarray(map_coordinates(heights, places, order=1, mode="nearest"))
+
+
+def _relief_grid(relief: Surface, shape: FaceShape) -> Grid:
+    """Grid of a height map; of a recipe one over the face, the same for all grids of the film."""
+    if own := relief.own_grids:
+        if len(own) > 1:
+            expected = "have height maps of one grid, (shape, pixel size [m])"
+            raise DescriptionError("Flat.relief", sorted(own), expected)
+        ((pixels, pixel_size),) = own
+        return Grid(pixels, pixel_size, False)
+    left, right, low, high = shape.outline.bounds
+    width, height = 2.0 * max(abs(left), abs(right)), 2.0 * max(abs(low), abs(high))
+    size = max(width, height) / _FINE
+    ny, nx = math.ceil(height / size), math.ceil(width / size)
+    return Grid((ny, nx), (height / ny, width / nx), False)
 
 
 def _depths(shape: FaceShape, face: Face) -> Map:

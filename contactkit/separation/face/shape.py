@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import math
 from functools import reduce
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
 from ...lubrication.reynolds import damping
 from ...scene.faces import FaceHole, Recess, Vent
 from ...scene.interface import Interface
 from ...scene.planforms import Disc, Ellipse, Planform, Polygon, Rectangle
+from ...scene.surfaces import FineRoughness, Surface
 
-__all__ = ["ClosedForm", "FaceShape", "closed_form", "shape_of"]
+if TYPE_CHECKING:
+    from ...scene.scenes import SeparationScene, SlidingScene
+
+__all__ = ["ClosedForm", "FaceShape", "FollowsCavity", "closed_form", "on_face", "shape_of"]
 
 _CONCENTRIC = 1e-9  # distance of centres over the radius, and sides of a triangle: rounding
 
@@ -27,14 +31,36 @@ class FaceShape(NamedTuple):
     """Slopes of the gap along x and y [-]."""
     curvature: float
     """Curvature of the gap [1/m]: of crowns, and of spheres."""
-    reliefs: tuple[Any, ...] = ()
-    """Height maps of both faces, each with `heights` [m] and `pixel_size` [m]."""
+    reliefs: tuple[Surface, ...] = ()
+    """Reliefs of both faces."""
+    roughness: FineRoughness | None = None
+    """Roughness that is known by its flow factors; that of one face stands for both."""
 
     @property
     def is_even(self) -> bool:
         """Whether the gap is the same everywhere."""
         is_level = self.tilt == (0.0, 0.0) and self.curvature == 0.0
         return is_level and not self.recesses and not self.reliefs
+
+
+@runtime_checkable
+class FollowsCavity(Protocol):
+    """An effect that may follow a cavity in the film."""
+
+    @property
+    def follows_cavity(self) -> bool:
+        """Whether it does."""
+
+
+def on_face(scene: SeparationScene | SlidingScene) -> bool:
+    """Whether the film of a scene is computed as one on a face, up to its rim.
+
+    It is on a face that is no disc, and where a cavity is followed under a sphere, which is a
+    crown of the face.
+    """
+    if not scene.interface.has_discs or scene.interface.is_flat:
+        return not scene.interface.has_discs
+    return any(isinstance(one, FollowsCavity) and one.follows_cavity for one in scene.effects)
 
 
 class ClosedForm(NamedTuple):
@@ -65,6 +91,7 @@ def shape_of(interface: Interface) -> FaceShape:
         tilt=(sum(face.tilt[0] for face in faces), sum(face.tilt[1] for face in faces)),
         curvature=interface.curvature + crowns,
         reliefs=tuple(face.relief for face in faces if face.relief is not None),
+        roughness=next((face.roughness for face in faces if face.roughness is not None), None),
     )
 
 
@@ -80,7 +107,7 @@ def closed_form(shape: FaceShape) -> ClosedForm | None:
     """
     body, inner = shape.outline.without_round_holes()
     holes = (*(Vent(shape=disc) for disc in inner), *shape.holes)
-    if shape.tilt != (0.0, 0.0) or shape.reliefs:
+    if shape.tilt != (0.0, 0.0) or shape.reliefs or shape.roughness is not None:
         return None
     if shape.is_even and not holes:
         return _even(body)

@@ -2,10 +2,8 @@
 
 page           Parts shared by all pages: data in JSON, tables in Markdown, pictures, the machine.
 hard_cases     Page of the hard cases.
-cost           Cost of a scene: CPU seconds, peak memory and counts of plan and run.
 effect_scenes  A scene for each effect, with it and without it, and the formula of the effect.
-presets        Error over cost of each shipped scene by the presets of `Accuracy`.
-accuracy       Page of accuracy and cost: error over CPU time of solvers, scenes and peers.
+accuracy       Page of accuracy and cost: what a digit more costs, all studies, other programs.
 effects        Page of the effects: role, formula, source, validity, cost, scenes.
 """
 

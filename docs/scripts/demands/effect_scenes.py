@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from attrs import evolve
 
 import contactkit as ck
-from contactkit.benchmarks.contact_studies import rough_steel as contact
+from contactkit.benchmarks.rough_studies import rough_steel as contact
 from contactkit.benchmarks.separation_studies import film_scene as disc
 
 __all__ = ["ENTRIES", "Entry"]

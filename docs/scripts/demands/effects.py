@@ -8,9 +8,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from contactkit.benchmarks.timing import cost
 from contactkit.kinds import CONTACT_EFFECTS, SEPARATION_EFFECTS, SLIDING_EFFECTS
 
-from .cost import cost
 from .effect_scenes import ENTRIES
 from .page import conditions, machine, picture, slug, table
 

@@ -44,6 +44,7 @@ def machine() -> dict[str, str]:
     return {
         "date": time.strftime("%Y-%m-%d", time.gmtime()),
         "processor": f"{os.cpu_count()} shared cores of a {_clock()}{platform.machine()} server",
+        "load": f"{os.getloadavg()[0]:.0f}" if hasattr(os, "getloadavg") else "unknown",
         "versions": f"Python {platform.python_version()}, {', '.join(versions)}",
     }
 
@@ -60,8 +61,9 @@ def _clock() -> str:
 
 def conditions(measured: Mapping[str, str]) -> str:
     """A sentence that names when and on what the numbers of a page were measured."""
+    load = f", load average {measured['load']}" if "load" in measured else ""
     return (
-        f"Measured {measured['date']} on {measured['processor']}, one thread; "
+        f"Measured {measured['date']} on {measured['processor']}{load}, one thread; "
         f"{measured['versions']}. Errors and counts hold on any machine and are recomputed by "
         "`tests/demand_pages`; seconds are CPU time of the process (`time.process_time`), the "
         "least of several runs, and differ between machines."

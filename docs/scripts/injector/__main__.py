@@ -1,4 +1,4 @@
-"""Measure the injector, and write docs/injector.md, docs/hosts.md and docs/fmu.md with ``--write``.
+"""Measure the injector, and write docs/injector.md and docs/hosts.md with ``--write``.
 
 Two minutes, and a C compiler. Names select some of the tables.
 """
@@ -18,7 +18,6 @@ from injector import coupling, delays
 
 TABLES = {
     "hosts": coupling.hosts,
-    "delays": coupling.delays,
     "oils": delays.oils_table,
     "strengths": delays.strength_table,
     "pressures": delays.pressure_table,

@@ -1,4 +1,4 @@
-"""Communication steps of the injector and their errors: blocks of docs/hosts.md and docs/fmu.md.
+"""Communication steps of the injector and their errors: a block of docs/hosts.md.
 
 A minute, and a C compiler. The reference shares no code with the FMUs: coil, spring and a film that
 cavitates are written down again below and solved by `scipy.integrate.solve_ivp` (Radau, 1e-10).
@@ -219,11 +219,9 @@ def coupled_release(step: float, order: str) -> float:
     return math.nan
 
 
-def master_release(
-    step: float | None, linear: bool = True, tolerance: float | None = None
-) -> float:
+def master_release(step: float | None, tolerance: float | None = None) -> float:
     """Time of the first release [s] by `cosimulate`."""
-    found = cosimulate(*fmus(), 4e-3, step, linear=linear, tolerance=tolerance)
+    found = cosimulate(*fmus(), 4e-3, step, tolerance=tolerance)
     return float(found["t_release"][-1])
 
 
@@ -244,7 +242,6 @@ def releases() -> dict[str, tuple[float, ...]]:
     """Times of the first release [s] at steps of 1, 5 and 100 us, by coupling."""
     short = (1 * US, 5 * US)
     found = {"linear": tuple(master_release(step) for step in short)}
-    found["constant"] = tuple(master_release(step, linear=False) for step in short)
     for order in ("parallel", "film", "drive"):
         found[order] = tuple(coupled_release(step, order) for step in (*short, 100 * US))
     found["adaptive"] = (master_release(None, tolerance=1e-4),)
@@ -274,19 +271,3 @@ def hosts() -> str:
         f"(`tolerance=1e-4`) the error is {cells['adaptive'][0]}."
     )
     return "\n".join([*head, *lines, "", after])
-
-
-def delays() -> str:
-    """Error of the first release [ns], by master and communication step."""
-    rows = {
-        "linear": "`cosimulate`, drive first",
-        "parallel": "in parallel, as libcosim and fmpy",
-        "constant": "`cosimulate`, pull constant in a step (`dF_ext` not given)",
-    }
-    lines = ["| master | step 5 us | step 1 us |", "|---|---|---|"]
-    for name, text in rows.items():
-        one, five = (
-            f"{float(f'{1e9 * (time - reference()):.2g}'):g} ns" for time in releases()[name][:2]
-        )
-        lines.append(f"| {text} | {five} | {one} |")
-    return "\n".join(lines)

@@ -101,7 +101,8 @@ void ck_made_faces(ck_reader *r, ck_faces *made) {
 
 static int suits(const ck_contents *c) {
     int faces = ck_has_faces[c->model];
-    return c->has_tables == ck_has_film[c->model] && (faces < 0 || c->has_faces == faces);
+    return c->has_tables == ck_has_film[c->model] && (faces < 0 || c->has_faces == faces) &&
+           c->has_bodies == ck_deforms[c->model];
 }
 
 static FILE *open_file(const char *path) {

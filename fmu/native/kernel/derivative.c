@@ -2,7 +2,8 @@
 
    While stepping, no output of stiction-mass follows an input. Of stiction-force, F, F_m and F_v
    by gap and speed are read off the tables; c, k and H_stable, slopes themselves, are differences.
-   Those of valve-drive and contact-stop by gap and speed follow from their laws. Before the first step outputs follow
+   Those of valve-drive and contact-stop by gap and speed follow from their laws; of deforming-force that of
+   F over the last step is solved along with it. Before the first step outputs follow
    the parameters too, through all that is prepared from them: differences. Nothing here is
    remembered as a failure. */
 
@@ -58,8 +59,8 @@ static int one(ck_model *model, int unknown, const ck_variable *known, double *s
     if (known->causality == CK_OUTPUT) return refuse(model, unknown, id, "that is an output, too");
     if (known->causality == CK_PARAMETER && !starts)
         return refuse(model, unknown, id, "a parameter does not change any more");
+    if (known->causality == CK_INPUT && kind->slope && kind->slope(model, unknown, id, slope)) return CK_OK;
     if (known->causality == CK_INPUT && !kind->follows) return CK_OK;
-    if (known->causality == CK_INPUT && kind->slope(model, unknown, id, slope)) return CK_OK;
     if (unknown == CK_U && id >= CK_T_DELAY && id <= CK_T_BOOST && id != CK_U_BOOST)
         return refuse(model, unknown, id, "the voltage jumps in time, which has no slope");
     if ((id == CK_H_BREAK || id == CK_DP_CAV || id == CK_DP_INCEPTION || id == CK_DP_HOLD ||

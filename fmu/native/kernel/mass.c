@@ -98,7 +98,7 @@ static void tell(ck_model *model, const ck_motion *before) {
     }
 }
 
-static int rate_twice(ck_model *model) {
+int ck_rate_twice(ck_model *model) {
     char message[300];
     snprintf(message, sizeof message,
              "the rate of F_ext is given twice, as dF_ext = %.9g N/s and as the derivative of the "
@@ -113,7 +113,7 @@ static int step(ck_model *model, double time, double length) {
     ck_motion before = state->motion, *now = &state->motion; /* its time counts from the start */
     ck_pull pull;
     int trouble;
-    if (state->rate != 0.0 && state->values[CK_DF_EXT] != 0.0) return rate_twice(model);
+    if (state->rate != 0.0 && state->values[CK_DF_EXT] != 0.0) return ck_rate_twice(model);
     pull.force = state->values[CK_F_EXT], pull.time = now->time;
     pull.rate = state->values[CK_DF_EXT] + state->rate, pull.bend = 0.0;
     trouble = ck_advance(&model->scene, now, &pull, length);

@@ -42,6 +42,9 @@ int ck_model_open(ck_model *model, const char *resources, const char *guid) {
     else problem = ck_data_read(path, &model->data);
     if (!problem && model->data.contents.has_tables && model->data.contents.tables.has_grid)
         problem = ck_grid_open(&model->grid, &model->data.contents.tables.grid);
+    if (!problem && model->data.contents.has_bodies)
+        problem = ck_deforming_open(&model->deforming, &model->data.contents.bodies,
+                                    model->data.contents.model == CK_DEFORMING_MASS);
     if (!problem && strcmp(guid, model->data.guid) != 0)
         problem = "it belongs to an FMU with another GUID";
     if (!problem) {
@@ -58,6 +61,7 @@ int ck_model_open(ck_model *model, const char *resources, const char *guid) {
 
 void ck_model_close(ck_model *model) {
     ck_grid_close(&model->grid);
+    ck_deforming_close(&model->deforming);
     free(model->data.numbers);
     free(model->data.cells);
     model->data.numbers = NULL, model->data.cells = NULL;
@@ -67,6 +71,7 @@ void ck_model_reset(ck_model *model) {
     int i;
     memset(&model->state, 0, sizeof model->state);
     ck_grid_put(&model->grid, NULL);
+    ck_deforming_put(&model->deforming, NULL);
     model->state.checksum = model->data.checksum;
     model->state.stop_time = HUGE_VAL;
     model->state.shown = 1;
@@ -379,8 +384,9 @@ int ck_model_step(ck_model *model, double time, double step) {
     ck_events_lift(model, seen);
     state->cut = 0;
     ck_grid_keep(&model->grid);
+    ck_deforming_keep(&model->deforming);
     status = ck_model_kind(model)->step(model, time, length);
-    if (status != CK_OK) ck_grid_go_back(&model->grid);
+    if (status != CK_OK) ck_grid_go_back(&model->grid), ck_deforming_go_back(&model->deforming);
     ck_events_hold(model, seen);
     if (status != CK_OK) return status;
     state->time = ck_model_pends(model) || state->cut ? state->end : time + step;
@@ -392,26 +398,39 @@ int ck_model_step(ck_model *model, double time, double step) {
     return state->failed ? CK_DISCARD : CK_OK;
 }
 
-/* Whether the liquid of a film on a grid is one. */
-static int is_liquid(const ck_model *model, const ck_state *state, const double *liquid) {
+/* A field is what a state has besides `ck_state`: the liquid of the cells of a grid, or the film between bodies
+   that deform. */
+static int field_count(const ck_model *model) {
+    return model->grid.n ? model->grid.n : model->deforming.count;
+}
+
+static const double *field_of(const ck_model *model) {
+    return model->grid.n ? model->grid.liquid : model->deforming.values;
+}
+
+/* Whether a field is one of this FMU. */
+static int is_field(const ck_model *model, const ck_state *state, const double *field) {
     int i, any = state->motion.cavity.phase != CK_FULL || state->memory.cavity.phase != CK_FULL;
-    if (!liquid) return 0; /* of a grid of another size */
+    if (!field) return 0; /* of another size */
     for (i = 0; any && i < model->grid.n; i++)
-        if (!(liquid[i] >= 0.0 && liquid[i] < HUGE_VAL)) return 0;
+        if (!(field[i] >= 0.0 && field[i] < HUGE_VAL)) return 0;
+    for (i = 0; i < model->deforming.count; i++)
+        if (!isfinite(field[i])) return 0;
     return 1;
 }
 
-int ck_model_restore(ck_model *model, const ck_state *state, const double *liquid) {
+int ck_model_restore(ck_model *model, const ck_state *state, const double *field) {
     int count = model->data.contents.has_tables ? model->data.contents.tables.n_films : 1;
     if (state->checksum != model->data.checksum || state->phase < CK_INSTANTIATED ||
         state->phase > CK_TERMINATED || state->motion.film < 0 || state->motion.film >= count ||
         state->memory.film < 0 || state->memory.film >= count ||
         !ck_is_cavity(&state->motion.cavity) || !ck_is_cavity(&state->memory.cavity) ||
-        !is_liquid(model, state, liquid))
+        !is_field(model, state, field))
         return ck_model_fail(model, "the FMU state is not one of this FMU; take it from this FMU, "
                                     "and keep its bytes unchanged");
     model->state = *state;
-    ck_grid_put(&model->grid, liquid);
+    ck_grid_put(&model->grid, field);
+    ck_deforming_put(&model->deforming, field);
     if (state->phase >= CK_STEPPING) ck_model_kind(model)->apply(model);
     ck_events_skip(model);
     return CK_OK;
@@ -481,28 +500,28 @@ void ck_events_skip(ck_model *model) {
 
 /* FMU states ----------------------------------------------------------------------------------- */
 
-/* A state that a host keeps; the liquid of so many cells of a grid follows it. */
+/* A state that a host keeps; its field of so many numbers follows it. */
 typedef struct {
-    int64_t cells;
+    int64_t count;
     ck_state state;
 } ck_saved;
 
-/* Serialized: letters and a checksum, then the state as it lies in memory, and the liquid. */
+/* Serialized: letters and a checksum, then the state as it lies in memory, and the field. */
 #define HEAD 16u
 
 static const char NO_STATE[] = "that is no FMU state, or it was freed; take one first";
 
-static size_t liquid_size(int64_t cells) { return (size_t)cells * sizeof(double); }
+static size_t field_size(int64_t count) { return (size_t)count * sizeof(double); }
 
-static size_t size_of(int64_t cells) { return sizeof(ck_state) + liquid_size(cells); }
+static size_t size_of(int64_t count) { return sizeof(ck_state) + field_size(count); }
 
 /* A state the host may keep: its own if it has one of this size, else a new one. */
 static ck_saved *place_for(ck_model *model, void **state) {
     ck_saved *own = (ck_saved *)ck_handle_content(CK_STATES, *state);
-    int64_t cells = model->grid.n;
+    int64_t count = field_count(model);
     void *handle;
-    if (own && own->cells == cells) return own;
-    own = (ck_saved *)malloc(sizeof *own + liquid_size(cells));
+    if (own && own->count == count) return own;
+    own = (ck_saved *)malloc(sizeof *own + field_size(count));
     handle = own ? ck_handle_new(CK_STATES, own) : NULL;
     if (!handle) {
         free(own);
@@ -511,21 +530,20 @@ static ck_saved *place_for(ck_model *model, void **state) {
     }
     free(ck_handle_free(CK_STATES, *state)); /* one of another FMU */
     *state = handle;
-    own->cells = cells;
+    own->count = count;
     return own;
 }
 
-static double *liquid_of(const ck_saved *saved) { return (double *)(saved + 1); }
+static double *kept_of(const ck_saved *saved) { return (double *)(saved + 1); }
 
 int ck_saved_take(ck_model *model, void **state) {
-    const ck_grid_film *grid = &model->grid;
     ck_saved *own;
     if (!ck_is_place(state))
         return ck_model_fail(model, "getFMUstate: give the address of a state; reset the FMU");
     own = place_for(model, state);
     if (!own) return CK_ERROR;
     own->state = model->state;
-    if (grid->n) memcpy(liquid_of(own), grid->liquid, liquid_size(grid->n));
+    if (own->count) memcpy(kept_of(own), field_of(model), field_size(own->count));
     return CK_OK;
 }
 
@@ -533,7 +551,7 @@ int ck_saved_restore(ck_model *model, const void *state) {
     const ck_saved *content = (const ck_saved *)ck_handle_content(CK_STATES, state);
     if (!content) return ck_model_fail(model, NO_STATE);
     return ck_model_restore(model, &content->state,
-                            content->cells == model->grid.n ? liquid_of(content) : NULL);
+                            content->count == field_count(model) ? kept_of(content) : NULL);
 }
 
 int ck_saved_free(void **state) {
@@ -547,7 +565,7 @@ int ck_saved_free(void **state) {
 int ck_saved_size(ck_model *model, const void *state, size_t *size) {
     const ck_saved *content = (const ck_saved *)ck_handle_content(CK_STATES, state);
     if (!size || !content) return ck_model_fail(model, NO_STATE);
-    *size = HEAD + size_of(content->cells);
+    *size = HEAD + size_of(content->count);
     return CK_OK;
 }
 
@@ -556,11 +574,11 @@ int ck_saved_write(ck_model *model, const void *state, void *bytes, size_t size)
     char *to = (char *)bytes;
     uint64_t sum;
     if (!content || !to) return ck_model_fail(model, NO_STATE);
-    if (size < HEAD + size_of(content->cells))
+    if (size < HEAD + size_of(content->count))
         return ck_model_fail(model, "serializeFMUstate: there is too little room");
     memcpy(to + HEAD, &content->state, sizeof content->state);
-    memcpy(to + HEAD + sizeof content->state, liquid_of(content), liquid_size(content->cells));
-    sum = ck_checksum(to + HEAD, size_of(content->cells));
+    memcpy(to + HEAD + sizeof content->state, kept_of(content), field_size(content->count));
+    sum = ck_checksum(to + HEAD, size_of(content->count));
     memcpy(to, "CKSTATE1", 8);
     memcpy(to + 8, &sum, 8);
     return CK_OK;
@@ -568,20 +586,20 @@ int ck_saved_write(ck_model *model, const void *state, void *bytes, size_t size)
 
 int ck_saved_read(ck_model *model, const void *bytes, size_t size, void **state) {
     const char *from = (const char *)bytes;
-    size_t cells = (size_t)model->grid.n;
+    int64_t count = field_count(model);
     ck_saved *own;
     uint64_t sum;
-    if (!from || !ck_is_place(state) || size < HEAD + size_of((int64_t)cells) ||
+    if (!from || !ck_is_place(state) || size < HEAD + size_of(count) ||
         memcmp(from, "CKSTATE1", 8) != 0)
         return ck_model_fail(model, "deSerializeFMUstate: these are no bytes of an FMU state; give those that "
                                     "serializeFMUstate wrote, unchanged");
     memcpy(&sum, from + 8, 8);
-    if (sum != ck_checksum(from + HEAD, size_of((int64_t)cells)))
+    if (sum != ck_checksum(from + HEAD, size_of(count)))
         return ck_model_fail(model, "deSerializeFMUstate: the bytes were changed; give those that "
                                     "serializeFMUstate wrote");
     own = place_for(model, state);
     if (!own) return CK_ERROR;
     memcpy(&own->state, from + HEAD, sizeof own->state);
-    memcpy(liquid_of(own), from + HEAD + sizeof own->state, liquid_size((int64_t)cells));
+    memcpy(kept_of(own), from + HEAD + sizeof own->state, field_size(count));
     return CK_OK;
 }

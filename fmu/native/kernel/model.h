@@ -12,6 +12,7 @@
 #ifndef CK_MODEL_H
 #define CK_MODEL_H
 
+#include "deforming.h"
 #include "drive.h"
 #include "grid.h"
 #include "motion.h"
@@ -64,6 +65,15 @@ typedef struct {
     int free, touching, landings, padding;
 } ck_tip;
 
+/* What bodies that deform remember besides their film: gap and rate of the undeformed bodies, what the film
+   does to them, integrals since the start, and lengths of the last internal step and of the next [s]. */
+typedef struct {
+    double gap, speed, force, axis, impulse, work, peak, highest, before, next;
+    double by_gap, by_speed; /* derivatives of the force over the last step of the host */
+    double release_time, releases;
+    int armed, padding;
+} ck_deformed;
+
 /* Everything that changes, in one piece without pointers. `stale`: the parameters were set since
    the outputs were made; `shown`: the outputs in `values` are those of the state it is in; `event`:
    outputs that change in event mode only are not. */
@@ -78,6 +88,7 @@ typedef struct {
     ck_driven driven; /* of valve-drive */
     ck_stopped stopped; /* of contact-stop */
     ck_tip tip; /* of tip-contact */
+    ck_deformed deformed; /* of deforming-mass and deforming-force */
     int phase, failed, stale, shown, event;
     int cut; /* the last step ended before its end, as it would have cost too much */
     int has_rtol; /* the host has set `rtol`: its tolerance does not stand for it any more */
@@ -89,6 +100,7 @@ typedef struct {
     ck_data data;
     ck_scene scene; /* that of the data with the parameters in */
     ck_grid_film grid; /* of a film with one, and the liquid on it, which is part of the state */
+    ck_deforming deforming; /* bodies that deform; their film is part of the state */
     ck_drive drive; /* the parameters of a drive */
     ck_state state;
     ck_say say;
@@ -126,7 +138,7 @@ int ck_model_setup(ck_model *model, double start_time, const double *stop_time,
                    const double *tolerance);
 int ck_model_initialize(ck_model *model);
 int ck_model_step(ck_model *model, double time, double step);
-int ck_model_restore(ck_model *model, const ck_state *state, const double *liquid);
+int ck_model_restore(ck_model *model, const ck_state *state, const double *field);
 
 /* States of the host: taken, restored, freed, and as bytes. */
 int ck_saved_take(ck_model *model, void **state);
@@ -166,6 +178,7 @@ const ck_kind *ck_model_kind(const ck_model *model);
 const char *ck_model_prepare(ck_model *model);
 const char *ck_common_parameters(ck_model *model);
 int ck_step_limit(const ck_model *model); /* parameter max_steps */
+int ck_rate_twice(ck_model *model);       /* the rate of F_ext was given in two ways */
 /* What a parameter must do to another one of its unit, with the values of both. */
 const char *ck_wrong(ck_model *model, int id, const char *must, int other, const char *unit);
 void ck_model_follow(ck_model *model);                           /* outputs nobody has read yet */

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 import tempfile
-import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -79,7 +78,6 @@ def release_study() -> list[Point]:
             quantity="release time",
             floor=1e-10,
             repeats=0,
-            clock=time.process_time,
         )
     return list(found.points)
 

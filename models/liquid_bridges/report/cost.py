@@ -7,7 +7,6 @@ largest gap along them for the rupture.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -33,7 +32,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["CLOSURES", "FLOOR", "bridge_cost", "force_points", "force_study", "rupture_points"]
+__all__ = ["CLOSURES", "FLOOR", "bridge_cost", "force_study", "rupture_study"]
 
 Progress = Callable[[float], None]
 
@@ -112,9 +111,7 @@ def _clear_caches() -> None:
     bridge_limit.branch.cache_clear()
 
 
-def force_points(
-    curves: Sequence[_Curve], progress: Progress, clock: Callable[[], float] = time.perf_counter
-) -> WorkPrecision:
+def force_points(curves: Sequence[_Curve], progress: Progress) -> WorkPrecision:
     """Error of the force and seconds for each gap, by closure, bridge and number of gaps."""
     settings = []
     for curve in curves:
@@ -128,9 +125,7 @@ def force_points(
                 settings.append(Setting(closure, f"{name}, {n} gaps, first time", first))
             one = partial(_run_one, curve, closure)
             settings.append(Setting(closure, f"{name}, one gap", one, is_model))
-    found = sweep(
-        settings, 1.0, quantity="force", floor=FLOOR, budget=0.3, progress=progress, clock=clock
-    )
+    found = sweep(settings, 1.0, quantity="force", floor=FLOOR, budget=0.3, progress=progress)
     points = tuple(
         Point(
             p.method,
@@ -148,10 +143,22 @@ def force_points(
 
 def force_study() -> list[Point]:
     """Error of the force of the shipped bridges, and CPU seconds for each gap."""
+    return list(force_points(_curves(_shipped()), lambda done: None).points)
+
+
+def rupture_study() -> list[Point]:
+    """Error of the rupture distance of the shipped bridges, and CPU seconds of each."""
+    return list(rupture_points(_curves(_shipped()), lambda done: None).points)
+
+
+def _shipped() -> Bridges:
     scene = bundled_device("bridges")
     assert isinstance(scene, Bridges)
-    curves = [_curve(case, scene.gaps, scene.reach) for case in scene.bridges]
-    return list(force_points(curves, lambda done: None, time.process_time).points)
+    return scene
+
+
+def _curves(scene: Bridges) -> list[_Curve]:
+    return [_curve(case, scene.gaps, scene.reach) for case in scene.bridges]
 
 
 def rupture_points(curves: Sequence[_Curve], progress: Progress) -> WorkPrecision:
@@ -170,7 +177,7 @@ def rupture_points(curves: Sequence[_Curve], progress: Progress) -> WorkPrecisio
 
 def bridge_cost(scene: Bridges, out: Path | None, error: float, progress: Progress) -> Report:
     """Measure the closures of all bridges: a table, numbers, and a picture and a CSV file."""
-    curves = [_curve(case, scene.gaps, scene.reach) for case in scene.bridges]
+    curves = _curves(scene)
     progress(0.3)
     forces = force_points(curves, lambda done: progress(0.3 + 0.5 * done))
     ruptures = rupture_points(curves, lambda done: progress(0.8 + 0.2 * done))
@@ -178,7 +185,7 @@ def bridge_cost(scene: Bridges, out: Path | None, error: float, progress: Progre
     scalars: dict[str, tuple[float, str]] = {}
     for found in (forces, ruptures):
         each = "gap" if found is forces else "bridge"
-        lines += [f"{found.quantity}: wall time, for each {each}", *_rows(found)]
+        lines += [f"{found.quantity}: CPU time, for each {each}", *_rows(found)]
         for p in found.points:
             key = f"{found.quantity} / {p.method} / {p.label}"
             scalars |= {f"{key} / error": (p.error, "-"), f"{key} / seconds": (p.seconds, "s")}

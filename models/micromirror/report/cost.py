@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import tempfile
-import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -33,14 +32,10 @@ def release_study() -> list[Point]:
     """Error of the time at which the tips of the shipped mirror are free; CPU seconds."""
     scene = bundled_device("micromirror")
     assert isinstance(scene, MicromirrorScene)
-    return list(mirror_sweep(scene, lambda done: None, time.process_time).points)
+    return list(mirror_sweep(scene, lambda done: None).points)
 
 
-def mirror_sweep(
-    scene: MicromirrorScene,
-    progress: Callable[[float], None],
-    clock: Callable[[], float] = time.perf_counter,
-) -> WorkPrecision:
+def mirror_sweep(scene: MicromirrorScene, progress: Callable[[float], None]) -> WorkPrecision:
     """Error of the time at which the tips are free, by solver, communication step and profile.
 
     Raises
@@ -74,7 +69,6 @@ def mirror_sweep(
             floor=max(abs(near / exact - 1.0), 1e-14),
             repeats=3,
             progress=progress,
-            clock=clock,
         )
 
 

@@ -2,7 +2,7 @@
 """All comparisons with other programs in one run: ``python bench.py --peers FOLDER``, `make bench`.
 
 Rough contacts, load curves, loading histories, partial slip, one-axis windows, sheets on a base,
-adhesion and leakage, one thread, small and medium maps: some minutes. One table sums them up, in
+adhesion and leakage, one thread: some minutes. One table sums them up, in
 out/bench/summary.md; beside it are the tables of each comparison. What is left out is named with
 the reason. `compare.py`, `features.py`, `adhesion.py` and `leakage.py` take larger cases.
 """
@@ -20,7 +20,7 @@ from report import conditions, goal, good, grouped, is_ours
 
 HERE = Path(__file__).parent
 RUNS = {  # a script and what it is asked in the short run
-    "compare": ["--threads", "1", "--sizes", "256", "512", "--budget", "6", "--no-effects"],
+    "compare": ["--threads", "1", "--sizes", "256", "512", "--budget", "12"],
     "features": ["--sizes", "128", "256", "--budget", "15"],
     "adhesion": ["--sizes", "64", "128", "--budget", "10"],
     "leakage": ["--sizes", "128", "256"],

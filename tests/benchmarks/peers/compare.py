@@ -22,7 +22,7 @@ from pathlib import Path
 from cases import BOUNDARIES, START, STEP, SURFACES
 from install import names
 from processes import answer, interpreter
-from report import conditions, effects_table, line, table, verdict
+from report import conditions, line, table, verdict
 
 HERE = Path(__file__).parent
 SERIAL = {"ContactMechanics"}  # one thread whatever is asked
@@ -43,7 +43,6 @@ def asked_for():
     ask.add_argument(
         "--skip", nargs="+", default=[], metavar="NAME@SIZE", help="a peer to leave out at one size"
     )
-    ask.add_argument("--no-effects", action="store_true", help="leave out layers, cap and curves")
     ask.add_argument("--peers", type=Path, default=Path(".venv/peers"))
     ask.add_argument("--out", type=Path, default=Path("out/bench"))
     return ask.parse_args()
@@ -107,19 +106,7 @@ def contest(given, found):
             yield row
 
 
-def effects(given, paths):
-    """Rows on layers, a hardness and load curves, one thread."""
-    for n, boundary, path in itertools.product(given.sizes, given.boundaries, paths):
-        job = {"solver": "effects", "n": n, "boundary": boundary, "area": 5, "threads": 1}
-        job |= {"budget": given.budget, "repeats": given.repeats, "path": path}
-        job["has_study"] = path == paths[-1]  # which takes whatever is installed
-        found = run(sys.executable, job, patience=5.0)
-        if "failed" in found:
-            print(f"effects {n} {boundary} {path}: {found['failed']}")
-        yield from found.get("rows", [])
-
-
-def write(given, before, missing, rows, more):
+def write(given, before, missing, rows):
     """Keep what is there so far, for a run may be stopped; return the tables."""
     left_out = [f"- {name}: left out: {reason}" for name, reason in missing.items()]
     text = "\n\n".join(
@@ -129,13 +116,12 @@ def write(given, before, missing, rows, more):
             "\n".join(left_out),
             table(rows),
             verdict(rows),
-            effects_table(more) if more else "",
         )
         if part
     )
     given.out.mkdir(parents=True, exist_ok=True)
     (given.out / "contact.md").write_text(text + "\n", encoding="utf-8")
-    kept = {"conditions": before, "missing": missing, "contest": rows, "effects": more}
+    kept = {"conditions": before, "missing": missing, "contest": rows}
     (given.out / "contact.json").write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
     return text
 
@@ -148,17 +134,11 @@ def main():
     print(before)
     for name, reason in missing.items():
         print(f"{name}: left out: {reason}")
-    paths = [path for path in ("plain", "fast") if path in found]
-    rows, more, text = [], [], ""
+    rows, text = [], ""
     for row in contest(given, found):
         rows.append(row)
         print(line(row), flush=True)
-        text = write(given, before, missing, rows, more)
-    for row in [] if given.no_effects else effects(given, paths):
-        more.append(row)
-        name = f"{row['n']} {row['boundary']} {row['path']}: {row['name']}"
-        print(f"{name}: {row['ratio']:.2f}x (goal {row['goal']})", flush=True)
-        text = write(given, before, missing, rows, more)
+        text = write(given, before, missing, rows)
     print(f"\n{text}\n\nwritten to {given.out}")
 
 

@@ -144,33 +144,3 @@ def verdict(rows):
             cells += ["-", "-"]
         text.append("| " + " | ".join(cells) + " |")
     return "\n".join(text)
-
-
-def effects_table(rows):
-    """Layers, a hardness and load curves over the plain half-space."""
-    text = [
-        "| case | path | CPU s | over | ratio | goal | convolutions | over | KKT |",
-        "|---|---|---|---|---|---|---|---|---|",
-    ]
-    for row in rows:
-        name = f"{row['n']} {row['boundary']}: {row['name']}"
-        if "plastic" in row:
-            name += f" ({100 * row['plastic']:.0f} % of the contact)"
-        mark = "" if row["ratio"] <= row["goal"] else " missed"
-        count = [
-            "-" if row[k] is None else f"{row[k]:.0f}"
-            for k in ("applications", "reference_applications")
-        ]
-        kkt = "-" if row["kkt"] is None else f"{row['kkt']:.0e}"
-        cells = [
-            name,
-            row["path"],
-            f"{row['seconds']:.3f}",
-            f"{row['reference_seconds']:.3f}",
-            f"{row['ratio']:.2f}{mark}",
-            f"{row['goal']}",
-            *count,
-            kkt,
-        ]
-        text.append("| " + " | ".join(cells) + " |")
-    return "\n".join(text)

@@ -66,6 +66,4 @@ def version(solver):
 
 if __name__ == "__main__":
     asked = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
-    if asked["solver"] == "effects":
-        from effects import run
     print(json.dumps(run(asked)))  # noqa: T201

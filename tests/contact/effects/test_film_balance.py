@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
 
 import numpy as np
 import pytest
+from selection import quick
 
 import contactkit as ck
 
@@ -32,6 +34,7 @@ def scene(pressure, *, pulls=True, pixels=64):
     )
 
 
+@functools.cache
 def solved(pressure, rtol=1e-8, **given):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ck.ValidityWarning)
@@ -39,7 +42,7 @@ def solved(pressure, rtol=1e-8, **given):
 
 
 @pytest.mark.parametrize("pressure", LOADS)
-@pytest.mark.parametrize("rtol", [1e-3, 1e-5])
+@pytest.mark.parametrize("rtol", quick([1e-3, 1e-5], 0))
 def test_a_loose_tolerance_leaves_the_balance_where_it_is(pressure, rtol):
     loose, tight = solved(pressure, rtol), solved(pressure)
     assert loose.contact_area == tight.contact_area

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from selection import quick
 
 import contactkit as ck
 from contactkit.adhesion import attraction, maugis_dugdale, rough_limits
@@ -94,7 +95,7 @@ def test_lennard_jones_is_that_of_half_spaces_beyond_its_peak():
     assert tension == pytest.approx(8 * 0.05 / 3e-9 * (z**-3 - z**-9), rel=1e-7)
 
 
-@pytest.mark.parametrize("name", CASES["rough"])
+@pytest.mark.parametrize("name", quick(CASES["rough"], 0))
 def test_a_rough_map_meets_the_states_of_a_gradient_flow(name):
     """Energies to 1e-6, pixels in contact exactly, on both branches."""
     case = CASES["rough"][name]
@@ -215,7 +216,7 @@ def test_a_sphere_is_pulled_up_to_the_force_of_maugis_and_dugdale():
 STICKY = ck.ExponentialAttraction(work_of_adhesion=WORK, range=1e-9)
 
 
-@pytest.mark.parametrize(("periodic", "pull"), [(False, 3.5e6), (True, 4.5e6)])
+@pytest.mark.parametrize(("periodic", "pull"), quick([(False, 3.5e6), (True, 4.5e6)], 0))
 def test_a_pulled_map_is_on_the_branch_of_a_separation(periodic, pull):
     """One pull or four, from rest or from a load: the state before decides, not the steps."""
     plan = rough(STICKY, n=24, periodic=periodic)
@@ -237,7 +238,7 @@ def test_a_pulled_map_is_on_the_branch_of_a_separation(periodic, pull):
 
 def test_a_chain_of_approaches_is_the_path_of_a_curve():
     plan = rough(STICKY, n=24)
-    levels = np.linspace(-3e-9, 0.0, 7)
+    levels = np.linspace(-3e-9, 0.0, 5)
     path = ck.pull_off_curve(plan, levels, n_refinements=0)
     chain = ck.load_curve(plan, approaches=[*levels, *levels[-2::-1]])
     both = np.concatenate([path.approaching.load, path.separating.load[1:]])

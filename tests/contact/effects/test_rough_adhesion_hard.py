@@ -8,6 +8,7 @@ import warnings
 import numpy as np
 import pytest
 from attrs import evolve
+from selection import quick
 
 import contactkit as ck
 
@@ -96,8 +97,10 @@ def test_strong_adhesion_closes_the_gap(periodic, loading):
     assert result.of(ck.Adhesion).adhesive_energy == pytest.approx(-5.0 * result.plan.grid.area)
 
 
-@pytest.mark.parametrize("periodic", [False, True])
-@pytest.mark.parametrize("ratio", [1e-3, 1e3])
+@pytest.mark.parametrize(
+    ("ratio", "periodic"),
+    quick([(1e-3, False), (1e-3, True), (1e3, False), (1e3, True)], 0, 3),
+)
 def test_layers_of_any_stiffness(ratio, periodic):
     film = ck.Material(young_modulus=ratio * 1e9, poisson_ratio=0.3)
     stack = ck.Stack(layers=(ck.Layer(material=film, thickness=4e-9),), substrate=SOLID)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from selection import quick
 
 from contactkit.contact.solver import contact_solver
 from contactkit.contact.solver.contact_solver import ContactSolver
@@ -131,7 +132,7 @@ def test_an_approach_just_below_the_mean_plane(solver):
     assert np.mean(s.pressure > 0.0) > 0.9
 
 
-@pytest.mark.parametrize("contrast", [1e-6, 1e-3, 1e3, 1e6])
+@pytest.mark.parametrize("contrast", quick([1e-6, 1e-3, 1e3, 1e6], 0, 2))
 @pytest.mark.parametrize("pixels", [0.1, 1.0, 20.0])
 def test_layers_a_million_times_stiffer_or_softer(contrast, pixels):
     solver = ContactSolver(

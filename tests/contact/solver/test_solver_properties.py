@@ -195,9 +195,9 @@ def test_a_warm_start_saves_applications():
     ("maker", "periodic", "threads"), [(half_space, True, 1), (coulomb, False, 2)]
 )
 def test_both_paths_take_the_same_steps(maker, periodic, threads):
-    h = rough((256, 256))
-    plain = ContactSolver((256, 256), (1.0, 1.0), maker, periodic, fast=False)
-    fast = ContactSolver((256, 256), (1.0, 1.0), maker, periodic, threads=threads, fast=True)
+    h = rough((128, 128))
+    plain = ContactSolver((128, 128), (1.0, 1.0), maker, periodic, fast=False)
+    fast = ContactSolver((128, 128), (1.0, 1.0), maker, periodic, threads=threads, fast=True)
     for bound in (None, 1.0):
         a, b = (x.solve(h, mean_pressure=0.05, bound=bound) for x in (plain, fast))
         assert abs(a.n_applications - b.n_applications) <= 2

@@ -52,7 +52,7 @@ def test_the_release_cases_are_met(film, release_cases, name, tolerance):
     assert found.log == ()
 
 
-@pytest.mark.parametrize(("name", "most"), [("A", 120), ("D", 300), ("E", 200)])
+@pytest.mark.parametrize(("name", "most"), quick([("A", 120), ("D", 300), ("E", 200)], 2))
 def test_a_tight_tolerance_is_met(film, release_cases, name, most):
     """E has a limit: its kinks do not cost the order. Its reference is known to 3e-8."""
     case, values = release_cases[name]["case"], release_cases[name]["values"]
@@ -168,7 +168,7 @@ def test_a_mass_that_is_pushed_back_lands_on_its_asperities(film):
     assert found.time[-1] == 0.5
 
 
-@pytest.mark.parametrize("tolerance", [1e-1, 3e-2, 1e-2, 1e-3])
+@pytest.mark.parametrize("tolerance", quick([1e-1, 3e-2, 1e-2, 1e-3], 0, 3))
 def test_a_mass_that_is_thrown_off_and_falls_back_is_followed_at_every_tolerance(film, tolerance):
     """Rough steps jump over the gap at which the film fills the faces; shorter ones find it."""
     steps = AdaptiveSteps(tolerance=tolerance)

@@ -59,6 +59,8 @@ RUNS = {
     "stiction-force": (FLAT, OPENED),
     "valve-drive": ({"t_delay": 0.0, "n_cycles": 1}, rising(5e-6, 2.6e-5, 6, 2e-5)),
     "contact-stop": ({}, rising(2.6e-5, 2.49e-5, 6, 1e-4)),
+    "deforming-mass": ({}, [(2e-3, {"F_ext": 4e-4 + 1e-5 * k, "dF_ext": 1e-2}) for k in range(6)]),
+    "deforming-force": ({}, rising(1e-6, 1.5e-6, 6, 1e-2)),
     "tip-contact": ({}, lifting(6, 4e-8)),  # dry: the film of a sphere takes long to prepare
 }
 """Start values, and the length and the inputs of every step."""
@@ -75,6 +77,7 @@ NATIVE = (
         )
         for fmi in (2, 3)
     ]
+    + [("deforming-force", 2), ("deforming-mass", 3)]  # on rings, and as a spring
     if HAS_CC
     else []
 )
@@ -97,10 +100,30 @@ def build_one(name: str, folder: Path) -> Path:
         return build_native_stop(out, curve=rough(), **more)
     if model == "tip-contact":
         return build_native_tip(out, curve=rough(1e-8) if fmi == "2" else None, **more)
+    if model.startswith("deforming"):
+        soft = fmi == "2"
+        film = soft_scene(1e5 if soft else 1e9)
+        asked = {"film_rtol": 0.02} if soft else {}
+        kind = {"deforming-mass": "stiction-mass", "deforming-force": "stiction-force"}[model]
+        return build_native(film, out, model=kind, **asked, **more)
     scene = SCENES["drop"]
     effects = (*scene.effects, ck.TensionLimit(strength=1e6, cavity="truncated"))
     scene = attrs.evolve(scene, effects=effects)
     return build_native(scene, out, model=model, **more)
+
+
+def soft_scene(modulus: float) -> ck.SeparationScene:
+    """Sphere that is pulled off a flat that deforms."""
+    solid = ck.Material(young_modulus=modulus, poisson_ratio=0.5)
+    return ck.SeparationScene(
+        interface=ck.Interface(
+            lower=ck.Body(surface=ck.Flat(radius=5e-4), solid=solid),
+            upper=ck.Sphere(radius=5e-3),
+            meniscus=ck.Meniscus(liquid=ck.Liquid(name="oil", viscosity=0.1)),
+        ),
+        loading=ck.ImposedForce(force=4e-4, mass=0.1, initial_gap=1e-6, final_gap=4e-6),
+        effects=(ck.ElasticBodies(), ck.ViscousForce()),
+    )
 
 
 def unpack(path: Path, folder: Path) -> Path:

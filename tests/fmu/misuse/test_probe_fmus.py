@@ -155,7 +155,8 @@ def states_lead_back_across_the_rupture(found):
     assert found["elsewhere"]
     assert found["after the end"]
     assert found["of another"]
-    assert 0 < found["size"] < 12_000  # half of it is where the film has cavitated
+    # Half of it is where the film has cavitated; rings have 24 bytes each besides.
+    assert 0 < found["size"] < 13_000
 
 
 @judge

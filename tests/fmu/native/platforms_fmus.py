@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import fmpy
 from drive_faces import ball
-from hosts_fmus import CASES
-from native_scenes import DROP, FACE, scene
+from native_scenes import DROP, scene
 
-import contactkit as ck
+from contactkit.benchmarks.releases import release_scene
 from contactkit.fmu.framework.toolchain import PLATFORMS
 from contactkit.fmu.native.build import build_native
 from contactkit.fmu.native.drive import build_native_drive
@@ -19,33 +18,13 @@ EVERY = {"platforms": list(PLATFORMS), "compiler": "zig"}
 LIBRARIES = [(name, fmi) for name in PLATFORMS for fmi in (2, 3)]
 
 
-def case_scene(name):
-    """A release case."""
-    case = CASES[name]["case"]
-    return scene(
-        lower=FACE,
-        upper=FACE,
-        volume=case["V"] or None,
-        gap=case["h0"],
-        mass=case["m"],
-        final=case["h_rel"],
-        stiffness=case["k_s"],
-        effects=(ck.MeniscusForce(profile=ck.AsPublished(radius="disc")), ck.ViscousForce()),
-    )
-
-
-def liquid(name):
-    case = CASES[name]["case"]
-    return {"eta": case["eta"], "gamma": case["gamma"]}
-
-
 def build_all(folder):
     """FMUs of all platforms: cases A and B with the mass inside, a film alone, a drive, tips."""
     film = scene(gap=5e-6, volume=DROP)
     for fmi in (2, 3):
         for name in "AB":
             path = folder / f"mass-{name}-{fmi}.fmu"
-            build_native(case_scene(name), path, start=liquid(name), fmi=fmi, **EVERY)
+            build_native(release_scene(name), path, fmi=fmi, **EVERY)
         build_native(film, folder / f"film-{fmi}.fmu", model="stiction-force", fmi=fmi, **EVERY)
         build_native_drive(folder / f"drive-{fmi}.fmu", fmi=fmi, **EVERY)
         tip = folder / f"tip-{fmi}.fmu"

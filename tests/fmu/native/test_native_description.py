@@ -15,16 +15,33 @@ pytest.importorskip("fmpy")
 if not HAS_CC:
     pytest.skip("there is no C compiler", allow_module_level=True)
 
+import contactkit as ck
 from contactkit.analyses.load_displacement.curve import LoadDisplacementCurve
 from contactkit.errors import DescriptionError
 from contactkit.fmu.contents.end_stop import default_curve
 from contactkit.fmu.native import sources
 from contactkit.fmu.native.data import contents_of, data_file
+from contactkit.fmu.native.deforming import deforming_film
 from contactkit.fmu.native.faces import faces_of
 from contactkit.fmu.native.film import moving, prepared_film
 from contactkit.fmu.native.models import MODELS, VARIABLES
 from contactkit.fmu.native.record import Record
 from contactkit.fmu.native.records import Curve
+
+MAYBE = ("tables", "faces", "residual", "dissipated", "bodies", "series", "rings")
+"""Members that may be missing."""
+SCENE = ck.SeparationScene(
+    interface=ck.Interface(
+        lower=ck.Body(
+            surface=ck.Flat(radius=1e-3), solid=ck.Material(young_modulus=1e9, poisson_ratio=0.3)
+        ),
+        upper=ck.Sphere(radius=5e-3),
+        meniscus=ck.Meniscus(liquid=ck.Liquid(name="oil", viscosity=0.1)),
+    ),
+    loading=ck.ImposedSpeed(speed=1e-5, initial_gap=1e-6, final_gap=2e-6),
+    effects=(ck.ElasticBodies(), ck.ViscousForce()),
+)
+SOFT = deforming_film(SCENE)
 
 MADE = {*sources.description_sources()}
 LAYOUT = sources.layout()
@@ -49,6 +66,8 @@ def contents(faces):
         "valve-drive": (None, None),
         "contact-stop": (None, faces),
         "tip-contact": (solids, faces),
+        "deforming-mass": (None, None, SOFT.bodies),
+        "deforming-force": (None, None, deforming_film(SCENE, 5e-3).bodies),
     }
     assert set(held) == set(MODELS)
     return {
@@ -73,7 +92,7 @@ def members(owner, path):
         elif value is None:
             yield f"{path}.has_{name}", 0
         elif isinstance(value, Record):
-            if name in ("tables", "faces", "residual", "dissipated"):
+            if name in MAYBE:
                 yield f"{path}.has_{name}", 1
             yield from members(value, here)
         else:
@@ -95,7 +114,7 @@ def test_c_finds_each_number_by_its_name(model, contents, tmp_path):
         f"#define c (*at)\n{text}    free(data.numbers), free(data.cells);\n    return 0;\n}}\n"
     )
     files = [folder / f"{name}.c" for name in ("members", "data", "description")]
-    program = compile_c(files, tmp_path / "members", f"-I{folder}")
+    program = compile_c(files, tmp_path / "members", f"-I{folder}", "-O0")
     (tmp_path / "film.bin").write_bytes(data_file("g", LAYOUT, contents[model].numbers()))
     said = subprocess.run(
         [str(program), str(tmp_path / "film.bin")], check=True, capture_output=True, text=True
@@ -146,7 +165,7 @@ def opened(shelf):
     def make(folder):
         write_sources(folder)
         files = [path for path in folder.glob("*.c") if not path.name.startswith(("fmi2", "fmi3"))]
-        compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}")
+        compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}", "-O0")
 
     probe = shelf.folder("kernel probe", make) / "probe"
 
@@ -230,6 +249,10 @@ def test_models_that_lack_faces_or_have_too_many_are_refused(faces):
         contents_of("stiction-mass", (), {}, tables, faces)
     with pytest.raises(DescriptionError, match=r"tables of valve-drive must be None"):
         contents_of("valve-drive", (), {}, tables)
+    with pytest.raises(DescriptionError, match=r"bodies of deforming-mass must be given"):
+        contents_of("deforming-mass", (), {})
+    with pytest.raises(DescriptionError, match=r"bodies of stiction-mass must be None"):
+        contents_of("stiction-mass", (), {}, tables, bodies=SOFT.bodies)
 
 
 def test_names_that_differ_by_capitals_alone_are_refused():

@@ -50,7 +50,7 @@ def probe(shelf):
     def make(folder):
         write_sources(folder)
         files = [path for path in folder.glob("*.c") if not path.name.startswith(("fmi2", "fmi3"))]
-        compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}")
+        compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}", "-O0")
 
     return shelf.folder("kernel probe", make) / "probe"
 

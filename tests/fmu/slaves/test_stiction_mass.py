@@ -83,14 +83,18 @@ def test_the_release_cases_are_met(host, release_cases, name, rtol):
 
 @pytest.mark.parametrize(
     "changes",
-    [
-        {},
-        {"h0": 10e-9, "R": 0.5e-3, "V": math.pi * 0.5e-3**2 * 10e-9},
-        {"h0": 100e-6, "h_rel": 400e-6},
-        {"eta": 1e-4},
-        {"eta": 1e2, "h0": 20e-6, "dp_cav": 1e6},
-        {"N": 100_000},
-    ],
+    quick(
+        [
+            {},
+            {"h0": 10e-9, "R": 0.5e-3, "V": math.pi * 0.5e-3**2 * 10e-9},
+            {"h0": 100e-6, "h_rel": 400e-6},
+            {"eta": 1e-4},
+            {"eta": 1e2, "h0": 20e-6, "dp_cav": 1e6},
+            {"N": 100_000},
+        ],
+        0,
+        4,
+    ),
     ids=["5 um", "10 nm", "100 um", "thin oil", "pitch", "1e5 menisci"],
 )
 def test_the_release_time_does_not_depend_on_the_communication_step(host, changes):
@@ -225,7 +229,7 @@ INPUTS = [port for port in PORTS if port.causality == "input"]
 def test_bad_parameters_are_refused_with_a_message_and_the_instance_lives_on(host):
     wrong = []
     for port in PARAMETERS:
-        for value in (math.nan, math.inf, -math.inf, -1.0, 0.0):
+        for value in (math.nan, math.inf, -1.0, 0.0):
             bad = {"v0": math.nan}.get(port.name, -1.0) if port.allows(value) else value
             host.start(**{port.name: bad})
             statuses, said = [host.step(), host.step()], host.errors[0]

@@ -76,6 +76,10 @@ SLOW = {"rupture_pull_beta0.1", "rupture_cycle_beta0.1", "two_pressures_beta1"} 
     "flat_pull_beta0.1",
     "rim_pull_beta0.05_v1",
     "winkler_pull",
+    "pull_spring_beta1",
+    "pull_speed_beta0.001",
+    "layer_pull_beta1_t2_nu0.3",
+    "pull_mass_beta0.1",
 }
 MOTIONS = [
     pytest.param(name, marks=[pytest.mark.slow] if name in SLOW else [])

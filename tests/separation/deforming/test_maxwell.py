@@ -1,4 +1,4 @@
-"""A rigid film in series with a spring against the engine of deforming bodies, and FMUs."""
+"""A rigid film in series with a spring against the engine of deforming bodies."""
 
 import math
 
@@ -7,7 +7,6 @@ import pytest
 
 import contactkit as ck
 from contactkit.app.scene_fmu import fmu_start
-from contactkit.fmu.native.build import build_native
 from contactkit.lubrication.elastohydrodynamic import response
 from contactkit.separation.deforming.maxwell import HOLDS_TO, series_pull, series_stiffness
 
@@ -69,24 +68,7 @@ def test_a_pull_is_right_to_what_it_states(beta, peak, late):
 
 
 @pytest.mark.errors
-def test_an_fmu_is_refused_with_its_spring(tmp_path):
-    stiff = scene(1e9, FORCE)
-    text = r"beta = 7\.5\d*e-07: .* spring of 339\.5 kN/m .* right to 0\.00012 of it"
-    with pytest.raises(ck.PlanError, match=text):
-        fmu_start(stiff, ck.Accuracy.standard)
-    with pytest.raises(ck.PlanError, match=text):
-        build_native(stiff, tmp_path / "film.fmu")
-    loaded = ck.ImposedForce(force=0.0, mass=1e-3, initial_gap=GAP, final_gap=4e-6)
-    with pytest.raises(ck.PlanError, match=r"right to 2 % up to pulls of 26\.\d+ mN, beta = 0\.02"):
-        fmu_start(scene(1e9, loaded), ck.Accuracy.standard)
-
-
-@pytest.mark.errors
-def test_an_fmu_of_soft_bodies_is_refused_with_its_number():
-    with pytest.raises(
-        ck.PlanError, match=r"beta = 0\.\d+, .* up to pulls of .*N, .* ck\.simulate"
-    ):
-        fmu_start(scene(1e4, FORCE), ck.Accuracy.standard)
-    flat = scene(1e4, FORCE, ck.Flat(radius=1e-4))
-    with pytest.raises(ck.PlanError, match="no FMU holds ElasticBodies yet"):
-        fmu_start(flat, ck.Accuracy.standard)
+def test_a_python_fmu_is_refused():
+    """Native ones are in tests/fmu/native/test_native_deforming.py."""
+    with pytest.raises(ck.PlanError, match=r"this scene has ElasticBodies: build it --native"):
+        fmu_start(scene(1e9, FORCE), ck.Accuracy.standard)

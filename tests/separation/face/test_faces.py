@@ -145,8 +145,6 @@ def test_a_relief_is_nearer_by_its_height():
     ramped = ck.plan(scene(ck.Flat(planform=flat, relief=ramp))).force(5e-6 + 1e-6, 1e-3)
     tilted = ck.plan(scene(ck.Flat(planform=flat, tilt=(5e-4, 0.0)))).force(5e-6, 1e-3)
     assert ramped == pytest.approx(tilted, rel=5e-3)
-    with pytest.raises(ck.DescriptionError, match="be Heights"):
-        ck.Flat(planform=flat, relief=ck.Sphere(radius=1.0))
 
 
 def test_a_massless_ring_is_released_sooner_as_its_damping_is_less():

@@ -1,0 +1,98 @@
+/* A film on rings under bodies that deform: linear elements for the pressure, a matrix of displacements.
+
+   Unknowns: the pressures at all nodes but the last, where the film is flooded. As mesh.py and wet_gap.py of
+   contactkit/lubrication/elastohydrodynamic. */
+
+#include "deforming.h"
+
+#include <math.h>
+
+#define TWO_PI 6.283185307179586476925287 /* of a circle */
+
+/* Points and weights of Gauss-Legendre on (0, 1): h^3 r on an element is a polynomial of degree 4. */
+static const double POINT[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
+
+static double displacement(const ck_deforming *d, const double *y, int i) {
+    const double *row = d->record->rings.compliance.entry + (long)i * (d->n + 1);
+    double sum = 0.0;
+    int j;
+    for (j = 0; j < d->n; j++) sum += row[j] * y[j];
+    return sum;
+}
+
+/* Flow of each element per difference of pressure, and its slopes by the gaps at its ends. */
+static void conduct(ck_deforming *d) {
+    int e, q;
+    for (e = 0; e < d->n; e++) {
+        double value = 0.0, sum = 0.0, outer = 0.0;
+        for (q = 0; q < 3; q++) {
+            double h = d->h[e] * (1.0 - POINT[q]) + d->h[e + 1] * POINT[q];
+            double square = d->share[3 * e + q] * h * h;
+            value += square * h, sum += 3.0 * square, outer += 3.0 * square * POINT[q];
+        }
+        d->flow[e] = value, d->left[e] = sum - outer, d->outer[e] = outer;
+    }
+}
+
+void ck_rings_level(ck_deforming *d, const double *y, double gap, ck_level *l, int slopes) {
+    const ck_rings *rings = &d->record->rings;
+    const double *k = rings->compliance.entry;
+    int n = d->n, m = d->size, wide = n + 1, i, j;
+    double sum = 0.0, power = 0.0;
+    l->closed = 0;
+    for (i = 0; i <= n; i++) {
+        d->h[i] = gap + rings->relief[i] + displacement(d, y, i);
+        l->closed |= !(d->h[i] > 0.0);
+    }
+    conduct(d);
+    for (i = 0; i < n; i++) {
+        l->stored[i] = rings->area[i] * d->h[i], l->rest[i] = 0.0;
+        sum += rings->area[i] * y[i];
+    }
+    for (i = 0; i < n; i++) {
+        double drop = y[i] - (i + 1 < n ? y[i + 1] : 0.0), through = d->flow[i] * drop;
+        l->rest[i] += through, power += through * drop;
+        if (i + 1 < n) l->rest[i + 1] -= through;
+    }
+    l->force = -TWO_PI * sum, l->power = TWO_PI * power;
+    if (!slopes) return;
+    for (i = 0; i < n; i++) {
+        double *stored = l->stored_slopes + (long)i * m, *rest = l->rest_slopes + (long)i * m;
+        double here = 0.0, before = 0.0, after, drop = y[i] - (i + 1 < n ? y[i + 1] : 0.0);
+        /* Slopes of the row by the gaps at the node and its neighbours. */
+        here += d->left[i] * drop, after = d->outer[i] * drop;
+        if (i > 0) {
+            double last = y[i - 1] - y[i];
+            before = -d->left[i - 1] * last, here -= d->outer[i - 1] * last;
+        }
+        for (j = 0; j < n; j++) {
+            const double *column = k + (long)i * wide + j;
+            stored[j] = rings->area[i] * column[0];
+            rest[j] = here * column[0] + after * column[wide] + (i > 0 ? before * column[-wide] : 0.0);
+        }
+        rest[i] += d->flow[i];
+        if (i + 1 < n) rest[i + 1] -= d->flow[i];
+        if (i > 0) rest[i] += d->flow[i - 1], rest[i - 1] -= d->flow[i - 1];
+        l->stored_by_gap[i] = rings->area[i], l->rest_by_gap[i] = here + after + before;
+        l->rest_by_speed[i] = 0.0, l->force_slopes[i] = -TWO_PI * rings->area[i];
+    }
+}
+
+double ck_rings_axis(const ck_deforming *d, const double *y, double gap) {
+    return gap + displacement(d, y, 0);
+}
+
+/* Largest change of a gap over itself; `closing`: the largest fall. */
+double ck_rings_moved(const ck_deforming *d, const double *y, double gap, const double *dy, double dgap,
+                      double *closing) {
+    double most = 0.0, fall = 0.0;
+    int i;
+    for (i = 0; i <= d->n; i++) {
+        double h = gap + d->record->rings.relief[i] + displacement(d, y, i);
+        double part = (dgap + displacement(d, dy, i)) / fabs(h);
+        if (!(fabs(part) <= most)) most = fabs(part);
+        if (-part > fall) fall = -part;
+    }
+    *closing = fall;
+    return most;
+}
