@@ -42,7 +42,7 @@ def lagrange(nodes: Sequence[float], place: float) -> list[float]:
     Examples
     --------
     >>> lagrange((1.0, 0.5, 0.0), 0.5)
-    [-0.0, 1.0, -0.0]
+    [0.0, 1.0, -0.0]
     """
     found = []
     for i, node in enumerate(nodes):

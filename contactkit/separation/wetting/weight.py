@@ -60,8 +60,8 @@ class LiquidWeight(SeparationForce):
     column: ClassVar[Column] = Column("weight_force", "N", "weight of the liquid", "#577590", "--")
     supersedes: ClassVar[tuple[str, ...]] = ("Bond number", "weight of the meniscus over its force")
     sources = (
-        "virtual work of the centroid of the exact bridge, first order in the Bond number; share "
-        "of 1/2 for equal bodies",
+        "virtual work of the centroid of the exact bridge, first order in the Bond number: half on "
+        "each of two equal bodies",
     )
 
     body: Literal["upper", "lower"] = field(default="upper", validator=choice("upper", "lower"))
