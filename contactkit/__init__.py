@@ -24,6 +24,11 @@ separation: speed imposed, gap 5e-06 m to 2.5e-05 m
   off  van-der-waals-force van der Waals attraction of the solids
   off  adhesive-contact    adhesion of a sphere that has touched
   off  asperity-menisci    menisci at the summits of a rough face
+  off  liquid-weight       weight of the liquid in the bridge
+  off  landau-levich-film  liquid that a receding line leaves behind (Landau-Levich)
+  off  cox-voinov-angle    contact angle that depends on the speed of the line (Cox-Voinov)
+  off  trouton-force       extensional stress of the column of liquid (Trouton)
+  off  dynamic-rupture     rupture distance that grows with speed
   off  elastic-bodies      the bodies deform under the pressure of film, meniscus and contact
   off  solid-contact       asperities carry the bodies at a cut-off gap
   the liquid cavitates 10 bar below ambient, a cavity is 1.01325 bar below it
@@ -159,6 +164,11 @@ if TYPE_CHECKING:
     from .separation.sliding.effects import ContactAngleHysteresis, CouetteForce
     from .separation.sliding.plan import SlidingPlan, divide_sliding
     from .separation.sliding.result import SlidingResult
+    from .separation.wetting.cox_voinov import CoxVoinovAngle
+    from .separation.wetting.landau_levich import LandauLevichFilm
+    from .separation.wetting.rupture import DynamicRupture
+    from .separation.wetting.trouton import TroutonForce
+    from .separation.wetting.weight import LiquidWeight
     from .shortcuts.contact_area import contact_area
     from .shortcuts.menisci import bridge_force, capillary_force
     from .shortcuts.squeeze import squeeze_time
@@ -192,6 +202,7 @@ _HOMES = {
     "Difference": "scene.planforms",
     "Disc": "scene.planforms",
     "DugdaleAttraction": "contact.effects.attraction_laws",
+    "DynamicRupture": "separation.wetting.rupture",
     "EFFECTS": "kinds",
     "Ellipse": "scene.planforms",
     "ExponentialAttraction": "contact.effects.attraction_laws",
@@ -209,6 +220,7 @@ _HOMES = {
     "HardnessLimit": "contact.effects.plasticity",
     "ConstantHardness": "contact.effects.hardness_rules",
     "ContinuousHardness": "contact.effects.hardness_rules",
+    "LiquidWeight": "separation.wetting.weight",
     "LiteralHardness": "contact.effects.hardness_rules",
     "MaterialHardness": "contact.effects.hardness_rules",
     "HardnessMap": "contact.effects.hardness_rules",
@@ -225,6 +237,7 @@ _HOMES = {
     "Intersection": "scene.planforms",
     "IslandBridges": "contact.effects.island_bridges",
     "KINDS": "kinds",
+    "LandauLevichFilm": "separation.wetting.landau_levich",
     "Layer": "scene.materials",
     "LayeredHalfSpace": "contact.effects.elasticity",
     "LennardJonesAttraction": "contact.effects.attraction_laws",
@@ -260,6 +273,7 @@ _HOMES = {
     "Sector": "scene.planforms",
     "SelfAffineRoughness": "scene.rough_surfaces",
     "SeparationResult": "separation.results",
+    "CoxVoinovAngle": "separation.wetting.cox_voinov",
     "DeformingPlan": "separation.deforming.plan",
     "DeformingResult": "separation.deforming.result",
     "ElasticBodies": "separation.deforming.effects",
@@ -278,6 +292,7 @@ _HOMES = {
     "SubsurfaceStress": "contact.effects.stress",
     "TangentialStep": "scene.loading",
     "TensionLimit": "separation.effects.viscous",
+    "TroutonForce": "separation.wetting.trouton",
     "Union": "scene.planforms",
     "ValidityWarning": "errors",
     "VanDerWaalsForce": "separation.effects.adhesion",
@@ -350,12 +365,14 @@ __all__ = [
     "ContinuousHardness",
     "ConvergenceError",
     "CouetteForce",
+    "CoxVoinovAngle",
     "DeformingPlan",
     "DeformingResult",
     "DescriptionError",
     "Difference",
     "Disc",
     "DugdaleAttraction",
+    "DynamicRupture",
     "EFFECTS",
     "ElasticBodies",
     "Ellipse",
@@ -385,11 +402,13 @@ __all__ = [
     "Intersection",
     "IslandBridges",
     "KINDS",
+    "LandauLevichFilm",
     "Layer",
     "LayeredHalfSpace",
     "LennardJonesAttraction",
     "LimitKind",
     "Liquid",
+    "LiquidWeight",
     "LiteralHardness",
     "Material",
     "MaterialHardness",
@@ -438,6 +457,7 @@ __all__ = [
     "SubsurfaceStress",
     "TangentialStep",
     "TensionLimit",
+    "TroutonForce",
     "Union",
     "ValidityWarning",
     "VanDerWaalsForce",

@@ -4,6 +4,7 @@ kelvin            Kelvin's equation and capillary condensation.
 vapour            Exchange of liquid between a meniscus and its vapour: time to dry up.
 exact             Exact axisymmetric bridges (Delaunay surfaces), their stability limits.
 arc               Bridges in the circular (toroidal) approximation.
+wetting           Contact lines that move: dynamic angle, deposited film; weight of a bridge.
 elastic_bridge    Bridge between a sphere and a flat that it draws in: closed forms, snap-in.
 flats             Force law of the exact bridge between flats, tabulated.
 contact_radius    Volume of a bridge between flats from its contact radius.

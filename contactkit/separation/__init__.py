@@ -24,4 +24,5 @@ scales         Reference scales: capillary force, viscous impulse, time.
 validity       Numbers of validity along a run.
 deforming      Separation of bodies that deform while a film is between them.
 sliding        One wetted surface sliding past another.
+wetting        Dynamic wetting: weight, deposited film, moving angle, column, rupture.
 """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -50,6 +50,8 @@ class Film:
     full_gap: float
     cavity: Cavitation | None = None
     """How the film cavitates, where that is remembered; None if its limits need no memory."""
+    volume_fraction: Callable[[float], float] | None = field(default=None, kw_only=True)
+    """Volume over that of the scene at a gap [m] of the imposed motion; None: it is kept."""
     kinks: tuple[float, ...] = field(init=False)
     release: float = field(init=False)
     recontact: float = field(init=False)

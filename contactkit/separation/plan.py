@@ -31,8 +31,10 @@ from .effects.base import (
     ForceLaw,
     Limiter,
     LimitKind,
+    MovingAngle,
     SeparationEffect,
     SeparationForce,
+    VolumeLoss,
     effects_of,
 )
 from .effects.force_law import measured_rate, settled
@@ -142,6 +144,11 @@ class Plan(ScenePlan):
         """
         import numpy as np
 
+        if self.film.volume_fraction is not None:
+            raise PlanError(
+                "plan.force(gap, speed) is not known for a film that loses liquid: its volume "
+                "depends on the motion before; take ck.simulate(plan), or leave out what takes it"
+            )
         if self.film.cavity is not None:
             raise PlanError(
                 "plan.force(gap, speed) is not known for a film that cavitates: it depends on the "
@@ -186,8 +193,17 @@ class Plan(ScenePlan):
                 detail="below about 2 nm a liquid is not a continuum",
                 source="Chan and Horn 1985",
             ),
-            *(one for effect in effects_of(self.scene) for one in effect.validity(self, path)),
+            *(
+                one
+                for effect in effects_of(self.scene)
+                for one in effect.validity(self, path)
+                if one.name not in self._superseded
+            ),
         )
+
+    @property
+    def _superseded(self) -> set[str]:
+        return {name for effect in effects_of(self.scene) for name in effect.supersedes}
 
     @property
     def title(self) -> str:
@@ -248,7 +264,7 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
         raise PlanError(mixture)
     _check_gap(scene)
     prepared = prepare_scene(scene, accuracy, liquid)
-    film = _film(prepared)
+    film = _as_it_moves(prepared, _film(prepared))
     loading = scene.loading
     if isinstance(loading, ImposedForce) and loading.mass is None and not film.has_viscous_impulse:
         raise PlanError(
@@ -267,15 +283,23 @@ def _columns(scene: SeparationScene) -> Mapping[str, Column]:
     return MappingProxyType({**COLUMNS, **own})
 
 
+_ALONE: Mapping[type[SeparationEffect], str] = {
+    FilmEnd: "where the film breaks",
+    MovingAngle: "how the contact angle moves",
+    VolumeLoss: "what the film loses",
+}
+
+
 def _check_effects(scene: SeparationScene, kinds: Sequence[type], liquid: LiquidState) -> None:
     if not any(isinstance(e, SeparationForce) for e in scene.effects):
         raise PlanError(
             "a separation scene needs at least one force among its effects; known: "
             f"{SEPARATION_EFFECTS.names}"
         )
-    ends = [k.__name__ for k in kinds if issubclass(k, FilmEnd)]
-    if len(ends) > 1:
-        raise PlanError(f"{' and '.join(ends)} both say where the film breaks; keep one of them")
+    for role, says in _ALONE.items():
+        rivals = [k.__name__ for k in kinds if issubclass(k, role)]
+        if len(rivals) > 1:
+            raise PlanError(f"{' and '.join(rivals)} both say {says}; keep one of them")
     problems = [
         f"{type(effect).__name__} needs {item}"
         for effect in effects_of(scene)
@@ -367,7 +391,7 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
     laws: dict[type[SeparationForce], ForceLaw] = {}
     limits: list[tuple[LimitKind, Limiter]] = []
     cavity: Cavitation | None = None
-    end = math.inf
+    end, outlasts = math.inf, False
     for effect in prepared.scene.effects:
         if isinstance(effect, SeparationForce):
             laws[type(effect)] = _law(prepared, effect)
@@ -378,9 +402,25 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
             else:
                 cavity = law
         elif isinstance(effect, FilmEnd):
-            end = effect.prepare(prepared)
-    end = min([end, *(law.end for law in laws.values())])
+            end, outlasts = effect.prepare(prepared), effect.outlasts
+    if not outlasts:
+        end = min([end, *(law.end for law in laws.values())])
     return Film(MappingProxyType(laws), tuple(limits), end, prepared.film.full_gap, cavity)
+
+
+def _as_it_moves(prepared: PreparedScene[SeparationScene], film: Film) -> Film:
+    """Film along the imposed motion: with the volume it has left, where an effect takes some."""
+    for effect in effects_of(prepared.scene):
+        if not isinstance(effect, VolumeLoss):
+            continue
+        from .wetting.losing_film import losing_film, volume_nodes
+
+        fraction = effect.volume_fraction(prepared)
+        last = min(prepared.scene.loading.final_gap, film.end)
+        nodes = volume_nodes(fraction(last))
+        films = [_film(with_fraction(prepared, node)) for node in nodes]
+        return losing_film(film, films, fraction, last)
+    return film
 
 
 _RATES = {"none": "not depend on the speed", "proportional": "be proportional to the speed"}

@@ -183,7 +183,11 @@ def _late_curves(
     import numpy as np
 
     gap = columns["gap"]
-    given = np.ones(gap.shape) if volume_fraction is None else volume_fraction()
+    left = plan.film.volume_fraction
+    if left is not None:
+        given = np.array([left(h) for h in gap.tolist()])
+    else:
+        given = np.ones(gap.shape) if volume_fraction is None else volume_fraction()
     return effect.late_curves(RunCurves(plan, gap, is_whole(plan, columns), given))
 
 

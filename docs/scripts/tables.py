@@ -74,7 +74,9 @@ from contactkit.separation.effects.base import (
     Effect,
     FilmEnd,
     FilmLimit,
+    MovingAngle,
     SeparationForce,
+    VolumeLoss,
 )
 from contactkit.separation.sliding.effects import SlidingForce
 
@@ -101,6 +103,8 @@ ROLES: Mapping[type, str] = {
     SeparationForce: "force",
     FilmLimit: "limit",
     FilmEnd: "end of the film",
+    MovingAngle: "contact angle",
+    VolumeLoss: "volume of the film",
     CoupledEffect: "coupled with the film",
     SlidingForce: "force along the bodies",
     Compliance: "compliance",

@@ -71,11 +71,33 @@ def test_close_by_the_quoted_rate_is_in_doubt():
 
 @pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 def test_far_off_the_weight_of_the_liquid_counts():
-    """It takes the excess from two fifths to a quarter; the viscosity has no part in it."""
+    """All of it would take the excess from two fifths to a quarter; equal spheres share it."""
     capillary, viscous = computed(DISTANCE, OPENING["gap_rate_m_s"])
     assert np.max((viscous / capillary)[FAR]) < 0.06
     assert off(capillary + viscous - WEIGHT, FAR) == pytest.approx(0.26, abs=0.01)
     assert WEIGHT / MEASURED[-1] == pytest.approx(0.245, abs=0.005)
+
+
+@pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+def test_with_film_weight_and_column_half_the_error_is_left():
+    """At 10 um/s: 0.29 mm3 stay on the spheres; the lower one is pulled by half the weight less."""
+    balls = ck.Sphere(radius=RADIUS)
+    keys = {"viscosity": "viscosity_Pas", "surface_tension": "surface_tension_N_m"}
+    oil = ck.Liquid(name="oil", density=965.0, **{k: OPENING[v] for k, v in keys.items()})
+    film = ck.Meniscus(liquid=oil, volume=VOLUME, contact_angle_lower=0.0, contact_angle_upper=0.0)
+    ends = {"initial_gap": DISTANCE[0] * RADIUS, "final_gap": DISTANCE[-1] * RADIUS}
+    wetting = ck.LandauLevichFilm(), ck.LiquidWeight(body="lower"), ck.TroutonForce()
+    scene = ck.SeparationScene(
+        interface=ck.Interface(lower=balls, upper=balls, meniscus=film),
+        loading=ck.ImposedSpeed(speed=1e-5, **ends),
+        effects=(ck.MeniscusForce(), ck.ViscousForce(), *wetting),
+    )
+    found = ck.simulate(ck.plan(scene))
+    force = np.interp(DISTANCE * RADIUS, found.gap, found.pull)
+    assert found["deposited_volume"][-1] == pytest.approx(0.287e-9, rel=0.01)
+    assert off(force, NEAR) == pytest.approx(-0.11, abs=0.01)
+    assert off(force, FAR) == pytest.approx(0.16, abs=0.01)
+    assert np.sqrt(np.mean((force / MEASURED - 1.0) ** 2)) == pytest.approx(0.15, abs=0.01)
 
 
 @pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")

@@ -37,8 +37,10 @@ from contactkit.separation.effects.base import (
     Effect,
     FilmEnd,
     FilmLimit,
+    MovingAngle,
     SeparationEffect,
     SeparationForce,
+    VolumeLoss,
 )
 from contactkit.separation.sliding.effects import SlidingForce
 
@@ -247,6 +249,8 @@ ROLES = (
     FilmLimit,
     FilmEnd,
     CoupledEffect,
+    MovingAngle,
+    VolumeLoss,
     Compliance,
     PressureBound,
     LoadHistory,

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "LIMIT",
+    "Angles",
     "CoupledEffect",
     "FilmEnd",
     "FilmLimit",
@@ -45,16 +46,22 @@ __all__ = [
     "LimitKind",
     "LimitPart",
     "Limiter",
+    "MovingAngle",
     "PlanView",
     "RunCurves",
     "RunView",
     "SeparationEffect",
     "SeparationForce",
+    "VolumeLoss",
     "effects_of",
 ]
 
 Limiter = Callable[[float, float, float], float]
 """Force [N] that is left of a Newtonian force [N]: called with (gap, speed, force)."""
+
+
+Angles = Callable[[float, float], tuple[float, float]]
+"""Contact angles on the lower and the upper body [rad] at a gap [m] and an opening speed [m/s]."""
 
 
 class FilmStatus(IntEnum):
@@ -93,6 +100,10 @@ class FilmView(Protocol):
     @property
     def end(self) -> float:
         """Gap at which the film ends [m]."""
+
+    @property
+    def volume_fraction(self) -> Callable[[float], float] | None:
+        """Volume over that of the scene at a gap [m]; None for a film that keeps it."""
 
 
 class PlanView(Protocol):
@@ -196,6 +207,8 @@ class SeparationEffect(Effect):
     """Whether it knows a meniscus of fixed pressure; otherwise the plan refuses that."""
     late: ClassVar[tuple[Column, ...]] = ()
     """Columns of the curves of `late_curves`."""
+    supersedes: ClassVar[tuple[str, ...]] = ()
+    """Names of numbers of validity that say what other effects leave out and this one has."""
     published_choice: ClassVar[str] = ""
     """Field that is ``"as-published"`` where the source's equations are taken as printed."""
 
@@ -331,10 +344,34 @@ class FilmEnd(SeparationEffect):
 
     status: ClassVar[FilmStatus] = FilmStatus.BROKEN
     """State of the film beyond that gap, as curves and FMUs show it."""
+    outlasts: ClassVar[bool] = False
+    """Whether the film may last beyond the end of its forces, which then stay as they are there."""
 
     @abc.abstractmethod
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> float:
         """Gap at which the film breaks [m]; inf for never."""
+
+
+@frozen(kw_only=True)
+class MovingAngle(SeparationEffect):
+    """A contact angle that depends on the motion of the line; none or one."""
+
+    @abc.abstractmethod
+    def meniscus_law(self, prepared: PreparedScene[SeparationScene], at_rest: ForceLaw) -> ForceLaw:
+        """Law of the meniscus force with that angle, from the law with the angle at rest."""
+
+    @abc.abstractmethod
+    def prepare_angles(self, prepared: PreparedScene[SeparationScene]) -> Angles:
+        """Contact angles over gap and speed, for the volume of a prepared scene."""
+
+
+@frozen(kw_only=True)
+class VolumeLoss(SeparationEffect):
+    """Liquid that leaves the film along an imposed motion; none or one."""
+
+    @abc.abstractmethod
+    def volume_fraction(self, prepared: PreparedScene[SeparationScene]) -> Callable[[float], float]:
+        """Volume of the film over that of the scene [-], at a gap [m] of the imposed motion."""
 
 
 @frozen(kw_only=True)

@@ -14,7 +14,7 @@ from ...lubrication import dimensionless as numbers
 from ...scene.column import Column
 from ...validators import Described, choice
 from ...validity import ValidityNumber
-from .base import ForceLaw, RunCurves, SeparationForce
+from .base import ForceLaw, MovingAngle, RunCurves, SeparationForce, effects_of
 from .film_shape import needs_extent
 from .meniscus_flat import arc_law, exact_law, printed_law, printed_radius
 from .meniscus_shape import SHAPE_COLUMNS, shape_curves
@@ -187,7 +187,14 @@ class MeniscusForce(SeparationForce):
         return missing
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
-        """See `SeparationForce.prepare`."""
+        """See `SeparationForce.prepare`: with a contact angle that moves, where one is listed."""
+        law = self._at_rest(prepared)
+        for effect in effects_of(prepared.scene):
+            if isinstance(effect, MovingAngle):
+                law = effect.meniscus_law(prepared, law)
+        return law
+
+    def _at_rest(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         if not prepared.scene.interface.is_flat:
             from .meniscus_sphere import sphere_law
 

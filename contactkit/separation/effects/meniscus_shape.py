@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ...errors import ConvergenceError
 from ...scene.column import Column
+from .base import MovingAngle, effects_of
 from .prepared import with_fraction
 
 if TYPE_CHECKING:
@@ -42,17 +43,31 @@ class MeniscusShape(NamedTuple):
     volume: Curve
 
 
+class _Moved(NamedTuple):
+    """Volume of one meniscus [m3] and contact angles [rad] at each gap of a motion."""
+
+    volume: Curve
+    angles: tuple[Curve, Curve]
+
+
 def meniscus_shape(
-    prepared: PreparedScene[SeparationScene], profile: str, gaps: Curve, *, is_disc: bool = False
+    prepared: PreparedScene[SeparationScene],
+    profile: str,
+    gaps: Curve,
+    *,
+    is_disc: bool = False,
+    moved: _Moved | None = None,
 ) -> MeniscusShape:
     """Shape of one meniscus at gaps [m] that it spans, by the profile of its force.
 
-    With `is_disc` the printed law between flats is that of an upright disc. nan where the shape of
-    a bridge is not found.
+    With `is_disc` the printed law between flats is that of an upright disc. `moved` has volume and
+    contact angles where they change along the gap. nan where the shape of a bridge is not found.
     """
     import numpy as np
 
     try:
+        if moved is not None:
+            return _as_it_moves(prepared, gaps, moved)
         pressure = prepared.liquid_pressure
         if pressure is not None:
             return _at_pressure(prepared, pressure, gaps)
@@ -71,21 +86,58 @@ def shape_curves(
 
     plan = run.plan
     curves = {column.name: np.full(run.gap.shape, np.nan) for column in SHAPE_COLUMNS}
-    for fraction in np.unique(run.volume_fraction[run.whole]).tolist():
-        here = run.whole & (run.volume_fraction == fraction)
-        film = plan.film_with(fraction)
-        ends = film.laws[force].end
-        gaps = np.minimum(run.gap[here], ends * _JUST_BELOW)
-        found = meniscus_shape(
-            with_fraction(plan.prepared, fraction), profile, gaps, is_disc=is_disc
-        )
+
+    def fill(here: NDArray[np.bool_], found: MeniscusShape, end: float) -> None:
         volume = plan.scene.meniscus.count * found.volume
-        values = (found.neck, found.lower, found.upper, found.pressure, volume, film.end)
+        values = (found.neck, found.lower, found.upper, found.pressure, volume, end)
         for column, value in zip(SHAPE_COLUMNS, values, strict=True):
             curves[column.name][here] = value
+
+    moved = _moved(run)
+    if moved is not None:
+        here = run.whole
+        gaps = np.minimum(run.gap[here], plan.film.end * _JUST_BELOW)
+        fill(here, meniscus_shape(plan.prepared, profile, gaps, moved=moved), plan.film.end)
+    else:
+        for fraction in np.unique(run.volume_fraction[run.whole]).tolist():
+            here = run.whole & (run.volume_fraction == fraction)
+            film = plan.film_with(fraction)
+            gaps = np.minimum(run.gap[here], film.laws[force].end * _JUST_BELOW)
+            prepared = with_fraction(plan.prepared, fraction)
+            fill(here, meniscus_shape(prepared, profile, gaps, is_disc=is_disc), film.end)
     for curve in curves.values():
         curve.flags.writeable = False
     return curves
+
+
+def _moved(run: RunCurves) -> _Moved | None:
+    """Volume and angles where the film is whole; None where no effect of the scene moves them."""
+    import numpy as np
+
+    plan = run.plan
+    moving = next((e for e in effects_of(plan.scene) if isinstance(e, MovingAngle)), None)
+    if moving is None and plan.film.volume_fraction is None:
+        return None
+    volume = plan.prepared.film.volume * run.volume_fraction[run.whole]
+    if moving is None:
+        lower, upper = (np.full(volume.shape, angle) for angle in plan.prepared.angles)
+        return _Moved(volume, (lower, upper))
+    speed = getattr(plan.scene.loading, "speed", 0.0)
+    angles = moving.prepare_angles(plan.prepared)
+    found = [angles(gap, speed) for gap in run.gap[run.whole].tolist()]
+    lower, upper = np.reshape(found, (-1, 2)).T
+    return _Moved(volume, (lower, upper))
+
+
+def _as_it_moves(
+    prepared: PreparedScene[SeparationScene], gaps: Curve, moved: _Moved
+) -> MeniscusShape:
+    """Exact bridges; beyond the limit at rest, where a fast film may last, there is none."""
+    from ...capillary.exact.bridge import bridge
+
+    exact = bridge(gaps, moved.volume, *moved.angles, *prepared.curvatures, beyond="nan")
+    radii = (exact.neck, exact.radius_lower, exact.radius_upper)
+    return MeniscusShape(*radii, prepared.liquid.surface_tension * exact.pressure, moved.volume)
 
 
 def _at_pressure(

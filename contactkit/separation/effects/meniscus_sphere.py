@@ -22,14 +22,14 @@ if TYPE_CHECKING:
     from .film_shape import FilmShape
     from .prepared import PreparedScene
 
-__all__ = ["contact_radius", "exact_end", "printed_neck", "sphere_law"]
+__all__ = ["Bridges", "bridge_curve", "contact_radius", "exact_end", "printed_neck", "sphere_law"]
 
 _DEGREES = 24, 48, 96  # of the polynomials
 _CLOSE = 1e-3  # of a curve, a stretch at its end that is not divided further
 _MAX_NODES = 4097  # of one of its stretches
 
 
-class _Bridges(NamedTuple):
+class Bridges(NamedTuple):
     """Bridges at gaps [m], up to an end.
 
     A curve goes through `solved`: their force over surface tension [m], or the radius of their
@@ -55,7 +55,7 @@ def sphere_law(prepared: PreparedScene[SeparationScene], profile: str) -> ForceL
     bridges = _BRIDGES[profile](prepared)
     known_to = bridges.end if math.isfinite(bridges.end) else 2.0 * scene.loading.final_gap
     top = min(known_to, bridges.end * (1.0 - 1e-9))
-    curve = _curve(bridges, top, 0.1 * prepared.accuracy.time_rtol)
+    curve = bridge_curve(bridges, top, 0.1 * prepared.accuracy.time_rtol)
 
     def law(gap: float, speed: float) -> float:
         gap = min(max(gap, 0.0), top)
@@ -103,34 +103,34 @@ def contact_radius(prepared: PreparedScene[SeparationScene], profile: str, gap: 
     return float(found.radius_lower if is_lower else found.radius_upper)
 
 
-def _exact(prepared: PreparedScene[SeparationScene]) -> _Bridges:
+def _exact(prepared: PreparedScene[SeparationScene]) -> Bridges:
     pressure = prepared.liquid_pressure
     film, fixed, end = prepared.film, _fixed(prepared), exact_end(prepared)
     if pressure is None:
         from ...capillary.exact.bridge import bridge
 
-        return _Bridges(
+        return Bridges(
             lambda gap: bridge(gap, film.volume, *fixed, beyond="nan").force, end, _thin(film)
         )
     from ...capillary.exact.at_pressure import bridge_at_pressure
 
     over = pressure / prepared.liquid.surface_tension
-    return _Bridges(
+    return Bridges(
         lambda gap: bridge_at_pressure(gap, over, *fixed, beyond="nan").force, end, 0.1 * end
     )
 
 
-def _arcs(prepared: PreparedScene[SeparationScene]) -> _Bridges:
+def _arcs(prepared: PreparedScene[SeparationScene]) -> Bridges:
     from ...capillary.arc import sphere as arc_sphere
 
     volume, fixed = prepared.film.volume, _fixed(prepared)
     end = float(arc_sphere.zero_neck_gap(volume, *fixed))
-    return _Bridges(
+    return Bridges(
         lambda gap: arc_sphere.solve(gap, volume, *fixed).force, end, _thin(prepared.film)
     )
 
 
-def _printed(prepared: PreparedScene[SeparationScene]) -> _Bridges:
+def _printed(prepared: PreparedScene[SeparationScene]) -> Bridges:
     """Eq. (3.12): closed in the contact circle of the arc, so that only this is tabulated.
 
     The force itself has a pole where the printed radius of the neck is zero, and no curve follows
@@ -152,7 +152,7 @@ def _printed(prepared: PreparedScene[SeparationScene]) -> _Bridges:
         inverse = (math.cos(lower) + math.cos(upper + slope)) / (gap + 0.5 * bend * x * x)
         return float(meniscus_of_circle_3_12(x, slope, inverse, upper))
 
-    return _Bridges(circle, end, _thin(prepared.film), force, poles)
+    return Bridges(circle, end, _thin(prepared.film), force, poles)
 
 
 def printed_neck(prepared: PreparedScene[SeparationScene], gaps: Sequence[float]) -> Floats:
@@ -211,15 +211,17 @@ def _thin(film: FilmShape) -> float:
     return 0.1 * math.sqrt(film.volume / (math.pi * film.sphere_radius))
 
 
-_BRIDGES: Mapping[str, Callable[[PreparedScene[SeparationScene]], _Bridges]] = {
+_BRIDGES: Mapping[str, Callable[[PreparedScene[SeparationScene]], Bridges]] = {
     "exact": _exact,
     "arc": _arcs,
     "as-published": _printed,
 }
 
 
-def _curve(bridges: _Bridges, top: float, rtol: float) -> Callable[[float], float]:
-    """Curve through bridges: polynomials through some dozens of them, as a spline.
+def bridge_curve(
+    bridges: Bridges, top: float, rtol: float, begin: float = 0.0
+) -> Callable[[float], float]:
+    """Curve through bridges from a gap to another [m]: polynomials through some dozens of them.
 
     It runs in the root of the logarithm of the gap's distance to the end, in which a force that
     ends in a fold, with an infinite slope, is smooth too: polynomials converge exponentially.
@@ -235,10 +237,10 @@ def _curve(bridges: _Bridges, top: float, rtol: float) -> Callable[[float], floa
 
     thin = bridges.thin
     end = bridges.end if math.isfinite(bridges.end) else 2.0 * top
-    first, far = (math.sqrt(math.log((end + thin) / (gap + thin))) for gap in (top, 0.0))
+    first, far = (math.sqrt(math.log((end + thin) / (gap + thin))) for gap in (top, begin))
 
     def force(x: Floats) -> Floats:
-        gaps = np.clip((end + thin) * np.exp(-x * x) - thin, 0.0, top)
+        gaps = np.clip((end + thin) * np.exp(-x * x) - thin, begin, top)
         f = bridges.solved(gaps)
         if not np.all(np.isfinite(f)):
             missing = float(gaps[~np.isfinite(f)][0])

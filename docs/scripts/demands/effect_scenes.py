@@ -214,6 +214,23 @@ LENS = "a rigid lens of 5 mm on a gel of 1 MPa in oil, "
 DRAWN = ck.ImposedSpeed(speed=1e-5, initial_gap=1e-6, final_gap=5e-6)
 PRESSED = ck.PressAndPull(press=1e-4, rest=5.0, speed=1e-5, initial_gap=1e-6, final_gap=5e-6)
 
+BRIDGE = "1 mm3 of an oil of 1 Pa.s between spheres of 4 mm, drawn from 50 um to 1.3 mm at 0.5 mm/s"
+
+
+def bridge(effect: Any, angle: float = 0.0) -> ck.SeparationScene:
+    """A bridge of a thick oil between two spheres, drawn out."""
+    oil = ck.Liquid(name="oil", viscosity=1.0, surface_tension=0.021, density=965.0)
+    ball = ck.Sphere(radius=4e-3)
+    film = ck.Meniscus(
+        liquid=oil, volume=1e-9, contact_angle_lower=angle, contact_angle_upper=angle
+    )
+    return ck.SeparationScene(
+        interface=ck.Interface(lower=ball, upper=ball, meniscus=film),
+        loading=ck.ImposedSpeed(initial_gap=50e-6, final_gap=1.3e-3, speed=5e-4),
+        effects=(MENISCUS, VISCOUS, effect),
+    )
+
+
 SEPARATIONS: Mapping[type, Entry] = {
     ck.ElasticBodies: _entry(
         r"h = z + \frac{r^2}{2R} + C * (p + p_c)",
@@ -277,6 +294,36 @@ SEPARATIONS: Mapping[type, Entry] = {
         "a face of 50 um with 1e12 asperities/m2, drawn from 10 to 50 nm",
         faces(VDW, ASPERITIES),
         ck.AsperityMenisci,
+    ),
+    ck.LiquidWeight: _entry(
+        r"\Delta F = \rho g V \frac{d z_c}{dh}",
+        BRIDGE,
+        bridge(ck.LiquidWeight()),
+        ck.LiquidWeight,
+    ),
+    ck.LandauLevichFilm: _entry(
+        r"\frac{dV}{dt} = -\sum 2 \pi r U e, \qquad e = \frac{1.34}{\kappa} Ca^{2/3}",
+        BRIDGE,
+        bridge(ck.LandauLevichFilm()),
+        ck.LandauLevichFilm,
+    ),
+    ck.CoxVoinovAngle: _entry(
+        r"G(\theta_d) = G(\theta_0) + Ca \ln\frac{L}{\lambda}, \qquad G \approx \frac{\theta^3}{9}",
+        BRIDGE + ", contact angles of 40 deg",
+        bridge(ck.CoxVoinovAngle(), angle=40.0 * DEG),
+        ck.CoxVoinovAngle,
+    ),
+    ck.TroutonForce: _entry(
+        r"F = 3 \eta \frac{A^2}{V} \dot h",
+        BRIDGE,
+        bridge(ck.TroutonForce()),
+        ck.TroutonForce,
+    ),
+    ck.DynamicRupture: _entry(
+        r"h_r = h_s (1 + Ca^{1/2})",
+        BRIDGE,
+        bridge(ck.DynamicRupture()),
+        ck.DynamicRupture,
     ),
 }
 

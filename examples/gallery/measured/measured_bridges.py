@@ -15,17 +15,22 @@ PAGE = Page(
     name="measured-bridges",
     title="Two spheres drawn apart in oil: the forces that Pitois measured",
     claim="Pitois, Moucheront and Chateau (J. Colloid Interface Sci. 231, 2000, 26, Figs. 5 and 6) "
-    "measured the force on ruby spheres of 4 mm, 1.1 mm3 of an oil of 100 Pa.s between them, "
-    "opened at 5 um/s and closed at 10 um/s. The points were digitised by others "
-    "(Leibniz-IWT/ddgclib, MIT, commits d8c30695 and f279280c); the paper was not read.",
-    verdict="Does not agree as quoted: we are 33 % below the points close by and 41 % above them "
-    "far off. Close by most of the force is that of the film; at twice the rate, which the "
-    "other figure has, 13 % are left, and the static point is met to 8 %. So the quoted rate is "
-    "probably wrong. Far off the film has no part; the weight of the liquid, a "
-    "quarter of the measured force at the end, is left out by us and takes the excess from 41 to "
-    "26 %. What remains has no reason that we can name without the paper; the contact angle does "
-    "not do it. Closing, the advancing angle is far from 0 at a capillary number of 0.05, so that "
-    "our attraction comes out 15 to 95 % too large.",
+    "measured the force on ruby spheres of 4 mm with 1.1 mm3 of silicone oil between them, "
+    "opened and closed. The points were digitised by others (Leibniz-IWT/ddgclib, MIT, "
+    "commits d8c30695 and f279280c); the paper was not read. Viscosity and rate are not "
+    "verified: the commit with the points of Fig. 5 says 0.1 Pa.s and 5 um/s, the script of "
+    "Fig. 6 in the other one 100 Pa.s and 10 um/s. With 0.1 Pa.s the viscous force is a "
+    "thousandth of what the points need, so that we take 100 Pa.s, and show both rates.",
+    verdict="Does not agree at 5 um/s: 33 % below the points close by, 41 % above them far off. At "
+    "10 um/s, with the liquid that receding lines leave behind (0.29 mm3 of the 1.1), half "
+    "the weight of the liquid, by which the lower sphere is pulled less, and the extensional "
+    "stress of the column, 11 % below and 16 % above: 15 % rms in place of 27. The film "
+    "deposited accounts for most of the excess far off. The weight does not take all of itself "
+    "away, as we said before: equal spheres share it. Close by no rate fits all points: the "
+    "factor that the viscous force needs rises from 2.3 to 3.2. Viscosity, rate and the body "
+    "on the balance have to be looked up in the paper. Closing, the advancing angle is far "
+    "from 0 at a capillary number of 0.05, so that our attraction comes out 15 to 95 % too "
+    "large.",
     choices="Contact angle 0 on both spheres.",
     grid="27 and 24 points, exact bridges",
 )
@@ -33,10 +38,13 @@ OPENING, CLOSING = case("pitois_2000_fig5"), case("pitois_2000_fig6")
 RADIUS, VOLUME = OPENING["sphere_radius_m"], OPENING["volume_m3"]
 RATE = OPENING["gap_rate_m_s"]
 WEIGHT = GRAVITY * OPENING["density_kg_m3"] * VOLUME
+FILM, LOWER, COLUMN = ck.LandauLevichFilm(), ck.LiquidWeight(body="lower"), ck.TroutonForce()
+WETTING = ((), (FILM,), (FILM, LOWER), (FILM, LOWER, COLUMN))
+"""What is added to capillary and viscous force, one more in each row of the opening."""
 
 
 def compute(draft: bool = False) -> dict[str, np.ndarray]:
-    """Capillary and viscous force at the distances of both figures, the latter at unit rates."""
+    """Capillary and viscous force at the distances of both figures, and with dynamic wetting."""
     found = {}
     for name, given in (("opening", OPENING), ("closing", CLOSING)):
         order = np.argsort(given["d_over_r"])
@@ -44,11 +52,16 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         capillary, viscous = _forces(distance)
         measured = np.array(given["force_N"])[order]
         found[name] = np.array([distance, measured, capillary, viscous])
-    return found
+    distance = found["opening"][0]
+    for name, rate in (("quoted", RATE), ("twice", 2.0 * RATE)):
+        rows = [_run(distance, rate, *effects) for effects in WETTING]
+        found[name] = np.array([np.interp(distance * RADIUS, r.gap, r.pull) for r in rows])
+    left = [rows[1]["deposited_volume"][-1]]
+    return found | {"lost": np.array(left)}
 
 
-def _forces(distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Both forces [N] at distances over R, opening at the quoted rate."""
+def _run(distance: np.ndarray, rate: float, *effects: object) -> ck.SeparationResult:
+    """Opening over distances over R at a rate [m/s], with effects beside the usual two."""
     oil = ck.Liquid(
         name="silicone oil",
         viscosity=OPENING["viscosity_Pas"],
@@ -60,11 +73,16 @@ def _forces(distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     scene = ck.SeparationScene(
         interface=ck.Interface(lower=ball, upper=ball, meniscus=film),
         loading=ck.ImposedSpeed(
-            initial_gap=distance[0] * RADIUS, final_gap=distance[-1] * RADIUS, speed=RATE
+            initial_gap=distance[0] * RADIUS, final_gap=distance[-1] * RADIUS, speed=rate
         ),
-        effects=(ck.MeniscusForce(), ck.ViscousForce()),
+        effects=(ck.MeniscusForce(), ck.ViscousForce(), *effects),
     )
-    found = ck.simulate(ck.plan(scene))
+    return ck.simulate(ck.plan(scene))
+
+
+def _forces(distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Both forces [N] at distances over R, opening at the quoted rate."""
+    found = _run(distance, RATE)
     gaps = distance * RADIUS
     capillary, viscous = (
         np.interp(gaps, found.gap, found.columns[name])
@@ -85,9 +103,10 @@ def draw(data: Data) -> plot.Figure:
     )  # fmt: skip
     lines = (
         ("capillary", capillary, 3),
-        ("capillary + viscous, 5 um/s as quoted", capillary + viscous, 1),
-        ("capillary + viscous, 10 um/s", capillary + 2.0 * viscous, 2),
-        ("the last, less the weight of the liquid", capillary + 2.0 * viscous - WEIGHT, 4),
+        ("capillary + viscous, 5 um/s", data["quoted"][0], 1),
+        ("capillary + viscous, 10 um/s", data["twice"][0], 2),
+        ("10 um/s, film deposited", data["twice"][1], 4),
+        ("10 um/s, film, weight, extension", data["twice"][3], 5),
     )
     for label, force, i in lines:
         ax.loglog(distance, force * 1e3, **plot.series(i, marker=""), label=label)
@@ -117,24 +136,31 @@ def check(data: Data) -> list[Check]:
     """Disagreement, and what each reason accounts for."""
     distance, measured, capillary, viscous = data["opening"]
     near, far = distance < 0.055, distance > 0.11
-    quoted = [_off(capillary + viscous, measured, where) for where in (near, far)]
-    twice = _off(capillary + 2.0 * viscous, measured, near)
-    lighter = _off(capillary + viscous - WEIGHT, measured, far)
+    slow, fast = (
+        [[_off(f, measured, w) for w in (near, far)] for f in data[name]]
+        for name in ("quoted", "twice")
+    )
     static = capillary[0] / OPENING["static_first_point"]["force_N"] - 1.0
     parts = (viscous / capillary)[far]
+    needed = ((measured - capillary) / viscous)[near]
     d, seen, pull, drag = data["closing"]
     ours = pull - 2.0 * drag
     crossing = [float(np.interp(0.0, f[:8], d[:8])) for f in (ours, seen)]
     return [
         Check(
-            "with the quoted conditions the points are missed",
-            bool(quoted[0] < -25.0 and quoted[1] > 30.0),
-            f"{quoted[0]:+.0f} % below D/R = 0.055, {quoted[1]:+.0f} % beyond 0.11",
+            "at 5 um/s the points are missed",
+            bool(abs(slow[0][0] + 33.2) < 1.0 and abs(slow[0][1] - 40.6) < 1.0),
+            f"{slow[0][0]:+.0f} % below D/R = 0.055, {slow[0][1]:+.0f} % beyond 0.11",
         ),
         Check(
-            "at twice the quoted rate less than half of that is left close by",
-            bool(abs(twice) < 0.5 * abs(quoted[0])),
-            f"{twice:+.0f} %",
+            "at 10 um/s less than half of that is left close by",
+            bool(abs(fast[0][0] + 12.8) < 1.0),
+            f"{fast[0][0]:+.0f} %",
+        ),
+        Check(
+            "no rate brings the viscous force to all points close by",
+            bool(needed.min() < 2.5 and needed.max() > 3.0),
+            f"the factor it needs at 5 um/s goes from {needed.min():.1f} to {needed.max():.1f}",
         ),
         Check(
             "the static point is met",
@@ -142,16 +168,11 @@ def check(data: Data) -> list[Check]:
             f"{100 * static:+.0f} %, read by eye",
         ),
         Check(
-            "far off the viscosity has no part",
+            "far off the viscosity has no part of its own",
             bool(parts.max() < 0.06),
-            f"at most {100 * parts.max():.0f} % of the capillary force",
+            f"at most {100 * parts.max():.0f} % of the capillary force at 5 um/s",
         ),
-        Check(
-            "the weight of the liquid takes away a third of the excess far off",
-            bool(lighter < 0.75 * quoted[1]),
-            f"{quoted[1]:+.0f} to {lighter:+.0f} %; it is {100 * WEIGHT / measured[-1]:.0f} % of "
-            "the last point",
-        ),
+        *_wetting(data, slow, fast),
         Check(
             "closing, the force changes sign at the measured distance within 12 %",
             bool(abs(crossing[0] / crossing[1] - 1.0) < 0.12),
@@ -160,15 +181,47 @@ def check(data: Data) -> list[Check]:
     ]
 
 
+def _wetting(data: Data, slow: list[list[float]], fast: list[list[float]]) -> list[Check]:
+    """Return what film, weight and column account for, of the errors [%] near and far."""
+    measured, lost = data["opening"][1], 1e9 * float(data["lost"][0])
+    rms = [100.0 * float(np.sqrt(np.mean((f / measured - 1.0) ** 2))) for f in data["twice"]]
+    return [
+        Check(
+            "the liquid left behind takes away most of the excess far off",
+            bool(abs(lost - 0.287) < 0.005 and abs(fast[1][1] - 14.3) < 1.0),
+            f"{lost:.2f} mm3 at 10 um/s: {fast[0][1]:+.0f} to {fast[1][1]:+.0f} % (at 5 um/s "
+            f"{slow[0][1]:+.0f} to {slow[1][1]:+.0f} %)",
+        ),
+        Check(
+            "half the weight, off the lower sphere, takes some more",
+            bool(3.0 < fast[1][1] - fast[2][1] < 9.0),
+            f"{fast[1][1]:+.0f} to {fast[2][1]:+.0f} %; the whole is "
+            f"{100 * WEIGHT / measured[-1]:.0f} % of the last point",
+        ),
+        Check(
+            "the extensional stress adds close by",
+            bool(3.0 < fast[3][0] - fast[2][0] < 8.0),
+            f"{fast[2][0]:+.0f} to {fast[3][0]:+.0f} %",
+        ),
+        Check(
+            "with all three little more than half of the error is left",
+            bool(rms[3] < 0.6 * rms[0]),
+            f"{rms[0]:.0f} to {rms[3]:.0f} % rms at 10 um/s; {fast[3][0]:+.0f} % close by, "
+            f"{fast[3][1]:+.0f} % far off",
+        ),
+    ]
+
+
 def table(data: Data) -> Table:
-    """Forces while the spheres are drawn apart, in mN."""
-    distance, measured, capillary, viscous = data["opening"]
-    rows = []
-    for d, seen, pull, drag in zip(distance, measured, capillary, viscous, strict=True):
-        values = (seen, pull + drag, pull, drag)
-        rows.append((float(d), *(float(1e3 * v) for v in values)))
-    head = ("D/R", "measured", "contactkit", "capillary", "viscous")
-    return Table(head, rows)
+    """Forces while the spheres are drawn apart, in mN: both rates, and with dynamic wetting."""
+    distance, measured, capillary, _ = data["opening"]
+    bare, wet = ([data[name][i] for name in ("quoted", "twice")] for i in (0, 3))
+    columns = (measured, capillary, *bare, *wet)
+    rows = [
+        (float(d), *(float(1e3 * column[i]) for column in columns)) for i, d in enumerate(distance)
+    ]
+    both = ("5 um/s", "10 um/s", "5 um/s, wetting", "10 um/s, wetting")
+    return Table(("D/R", "measured", "capillary", *both), rows)
 
 
 if __name__ == "__main__":
