@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
@@ -81,7 +82,7 @@ class DynamicRupture(FilmEnd):
             )
         fixed = (*prepared.angles, *prepared.curvatures)
         at_rest = float(stability_limit(prepared.film.volume, *fixed).gap)
-        return at_rest * (1.0 + self.factor * ca**self.exponent)
+        return at_rest * (1.0 + self.factor * math.pow(ca, self.exponent))
 
     def validity(
         self, plan: PlanView, path: Sequence[tuple[float, float]]
