@@ -11,6 +11,7 @@ from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.curve_figure import draw_panel, labelled
+from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -44,7 +45,13 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         ]
         cases = [(surface, stack) for stack in stacks]
         found.append(rough.curves(cases, sampling, LOADS, COLUMNS, hard))
-    return {name: np.array([one[name] for one in found]) for name in COLUMNS}
+    cases = [pressed(sampling, Case(4e-6, name)) for name in NAMES]
+    full = pressed(sampling, Case(1e-3, surface=1, thickness=100e-9))
+    second = {
+        "second": np.array([[c.max_pressure, c.fraction, c.max_displacement] for c in cases]).T,
+        "second_plastic": np.array([full.max_pressure, full.plastic_fraction()]),
+    }
+    return {name: np.array([one[name] for one in found]) for name in COLUMNS} | second
 
 
 def draw(data: Data) -> tuple[plot.Figure, plot.Figure]:
@@ -132,7 +139,15 @@ def check(data: Data) -> list[Check]:
             f"surface of 10 nm, from 4e-5 to 1e-2 E3: {rough.spread(grows)} times",
         )
     )
-    return checks
+    ours = [data[n][0, :, 0, 0] for n in ("max_pressure", "contact_fraction", "max_displacement")]
+    flows = [data[n][1, 0, 0, 5] for n in ("max_pressure", "plastic_fraction")]
+    return [
+        *checks,
+        agree("pressure, area, displacement of I to V at 4e-6 E3", ours, data["second"]),
+        agree(
+            "hardness and plastic area of I at 1e-3 E3, 10 nm", flows, data["second_plastic"], 0.02
+        ),
+    ]
 
 
 def table(data: Data) -> Table:

@@ -9,6 +9,7 @@ from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.stress_maps import NAMES, map_figure, maps, maxima, stacked
+from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -44,7 +45,12 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
     shape = (len(STRUCTURES), len(sampling.seeds), len(LOADS))
     found = stacked(shown)
     found = {k: v.reshape(len(STRUCTURES), len(LOADS), *v.shape[1:]) for k, v in found.items()}
+    iv = STRUCTURES.index("IV")
+    cases = [pressed(sampling, Case(load, "IV")) for load in (4e-6, 4e-5)]
+    second = [c.stress(found["depths"][iv, i]) for i, c in enumerate(cases)]
     return found | {
+        "second_pressure": np.array([c.max_pressure for c in cases]),
+        "second_stress": np.array(second),
         "stress": np.moveaxis(np.array(best).reshape(*shape, len(NAMES)), 2, 0),
         "pressure": np.moveaxis(np.array(peak).reshape(shape), 2, 0),
     }
@@ -84,7 +90,11 @@ def check(data: Data) -> list[Check]:
             "; ".join(rough.spread(one) for one in peak) + " of the hardness",
         )
     )
-    return checks
+    return [
+        *checks,
+        agree("pressure of IV at both loads", data["pressure"][:, iv, 0], data["second_pressure"]),
+        agree("von Mises, tension, s_xz of IV", data["maxima"][iv], data["second_stress"]),
+    ]
 
 
 def table(data: Data) -> Table:

@@ -10,6 +10,7 @@ from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.curve_figure import labelled
 from contactkit.gallery.chapter_2.stress_maps import NAMES, map_figure, maps, maxima, stacked
+from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -51,7 +52,13 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
                         shown.append(made)
     shape = (len(HEIGHTS), len(STRUCTURES), len(sampling.seeds), len(FRICTIONS), len(NAMES))
     every = np.array(depths).reshape(len(HEIGHTS), len(STRUCTURES), len(NAMES))
-    return stacked(shown) | {"stress": np.array(best).reshape(shape), "deepest": every}
+    iii = STRUCTURES.index("III")
+    second = [
+        pressed(sampling, Case(4e-6, name, thickness)).stress(every[i, k], 0.5)
+        for name, thickness, i, k in (("I", 10e-9, 1, 0), ("III", 1e-9, 0, iii))
+    ]
+    found = {"stress": np.array(best).reshape(shape), "deepest": every}
+    return stacked(shown) | found | {"second": np.array(second)}
 
 
 def draw(data: Data) -> tuple[plot.Figure, plot.Figure]:
@@ -126,6 +133,11 @@ def check(data: Data) -> list[Check]:
             "lowers)",
             bool((np.median(thick[iv], axis=0) > 0.99).all()),
             f"0: {rough.spread(thick[iv][..., 0])}, 0.5: {rough.spread(thick[iv][..., 3])}",
+        ),
+        agree(
+            "von Mises, tension, s_xz with friction of 0.5, thick I and thin III",
+            [stress[1, 0, 0, 3], stress[0, iii, 0, 3]],
+            data["second"],
         ),
     ]
 

@@ -9,6 +9,7 @@ from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.stress_maps import maxima
+from contactkit.gallery.second_method.anchors import Case, Solved, agree, pressed
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -56,7 +57,7 @@ def numbers(stack: ck.Stack, sampling: rough.Sampling, load: float, seed: int) -
 
 def compute(draft: bool = False) -> dict[str, np.ndarray]:
     """Changes (effects, structures, seeds, quantities) against I."""
-    found = []
+    found, first = [], []
     for sampling, load, stacks in (
         (rough.wide(draft), 4e-6, [(m, (1.0, 1.0), 10.0) for m in rough.STRUCTURES.values()]),
         (rough.fine(draft), 1e-3, [((1.0, 1.0), h, 1.0) for h in rough.STRUCTURES.values()]),
@@ -64,7 +65,26 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         made = [rough.body(m, h, t * rough.NM) for m, h, t in stacks]
         values = [[numbers(s, sampling, load, seed) for seed in sampling.seeds] for s in made]
         found.append(rough.ratios(np.array(values))[1:] - 1.0)
-    return {"change": np.array(found)}
+        first.append([np.array(values)[k, 0, :3] for k in (0, 3)])
+    cases = [
+        [pressed(rough.wide(draft), Case(4e-6, name)) for name in ("I", "IV")],
+        [pressed(rough.fine(draft), Case(1e-3, thickness=1e-9))],
+    ]
+    second = [[_numbers(one) for one in ones] for ones in cases]
+    return {
+        "change": np.array(found),
+        "first": np.array([*first[0], first[1][0]]),
+        "second": np.array([*second[0], *second[1]]),
+    }
+
+
+def _numbers(found: Solved) -> list[float]:
+    """Largest pressure [Pa], area [m2] and film force [N] by the second method."""
+    return [
+        found.max_pressure,
+        found.fraction * found.sampling.width**2,
+        found.film_force(),
+    ]
 
 
 def arrows(change: float) -> int:
@@ -132,6 +152,7 @@ def check(data: Data) -> list[Check]:
             bool(soft < 0.05),
             f"at most {100.0 * soft:.2f} %",
         ),
+        agree("pressure, area, force of I, IV and I'", data["first"], data["second"]),
     ]
 
 

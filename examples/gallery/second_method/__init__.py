@@ -1,0 +1,6 @@
+"""Second method: a plain contact solver and layered half-space, apart from those of contactkit.
+
+contact  Pressure of a periodic rough contact by conjugate gradients with two bounds.
+layers   Displacement and stress of layers on a half-space, one linear system for each wavenumber.
+anchors  Rough contacts of chapter 2 with the numbers of the captions, solved by both.
+"""
