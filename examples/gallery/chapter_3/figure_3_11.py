@@ -21,6 +21,8 @@ from contactkit.gallery.chapter_3.films import (
     sphere_break_gaps,
     sphere_volume,
 )
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.lubrication.squeeze_film import sphere_impulse_conserved
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import SERIES, Figure, letters
@@ -181,6 +183,11 @@ def check(data: dict[str, Any]) -> list[Check]:
                 for i in range(len(HEIGHTS))
             )
             + " nm",
+        ),
+        agree(
+            "impulse over the time, from 1 nm, s0 = 2 and 6 nm",
+            [data[f"viscous_1_{i}"][0][-1] for i in (0, 4)],
+            [bridges.sphere_impulse(100e-9, 1e-9, s) / 1e-7 for s in (2e-9, 6e-9)],
         ),
     ]
 
