@@ -123,8 +123,8 @@ def test_a_page_of_rough_contacts_notices_what_enters_it(name, monkeypatch):
 
 BY_NAME = {  # constants of a page that enter it, read anew by `compute`
     "chapter_3.figure_3_07": ("GAP",),
-    "chapter_3.figure_3_08": ("RADIUS", "HEIGHT"),
-    "chapter_3.figure_3_09": ("GAMMA", "RADIUS", "HEIGHTS"),
+    "chapter_3.figure_3_08": ("HEIGHT",),
+    "chapter_3.figure_3_09": ("GAMMA", "HEIGHTS"),
     "chapter_3.figure_3_10": ("VISCOSITY", "TIME", "RADIUS", "HEIGHTS"),
     "chapter_3.figure_3_11": ("VISCOSITY", "TIME", "RADIUS", "HEIGHTS"),
     "chapter_3.figure_3_12": ("GAMMA", "VISCOSITY", "TIME", "RADIUS", "HEIGHTS"),
@@ -138,7 +138,9 @@ BY_NAME = {  # constants of a page that enter it, read anew by `compute`
     "chapter_3.section_3_2_3": ("VISCOSITY", "TIME", "RADIUS", "HEIGHTS", "START"),
     "chapter_3.tables_3_1_3_2": ("GAMMA", "VISCOSITY", "TIME", "RADIUS", "HEIGHTS"),
 }
-ONLY_RATIOS = {  # inputs that a page cannot notice, as nothing it states depends on them
+ONLY_RATIOS = {  # inputs that are not changed above, and why
+    "chapter_3.figure_3_08": "RADIUS: bound to the helpers of films.py when these are imported",
+    "chapter_3.figure_3_09": "RADIUS: the same; it is in the volumes of the films",
     "chapter_3.figure_3_13": "TIME: times at which forces are equal are what it computes",
     "chapter_3.figure_3_20": "TIME: its impulses do not depend on it, which is its statement",
     "chapter_3.figure_3_21": "GAP: its asperities are compared by powers of their number",

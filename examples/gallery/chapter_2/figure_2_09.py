@@ -22,7 +22,9 @@ PAGE = Page(
     "0.05 um is shorter than the shortest wave, as it is shorter than the pixels of any grid the "
     "source can have used on this window.",
     choices="Pressure bounded by the hardness, 5 GPa. The surface of 10 nm yields at the low load "
-    "already.",
+    "already."
+    " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
+    "between structures by 10 to 20 % (page Refinement).",
     grid=rough.WIDE,
     seeds="1 to 5; maps of seed 1, a square of 0.8 um around the highest pressure",
 )

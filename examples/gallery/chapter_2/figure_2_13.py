@@ -23,7 +23,9 @@ PAGE = Page(
     "wide. IV lowers the pressure by half of what II does, and V raises it by as much: "
     "nothing makes one of them significant and the other not. The tension is the "
     "exception: even a thin stiff layer carries far more of it.",
-    choices="Load curves up to 1e-2 E3.",
+    choices="Load curves up to 1e-2 E3."
+    " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
+    "between structures by 10 to 20 % (page Refinement).",
     grid=rough.WIDE,
     seeds="1 to 5; maps of seed 1, a square of 0.6 um around the highest pressure, at 1e-5 E3",
 )

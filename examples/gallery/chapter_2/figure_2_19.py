@@ -24,7 +24,9 @@ PAGE = Page(
     "friction is that of the elastic case: hardness bounds the pressure, and stress and pressure "
     "are proportional. What interlayers do follows from the hardness rule (Fig. 2.15).",
     choices="Continuous rule. Loads 1e-5 E3 as printed, and 1e-3 E3, at which all but hard layers "
-    "yield. Coefficients 0, 0.1, 0.3, 0.5.",
+    "yield. Coefficients 0, 0.1, 0.3, 0.5."
+    " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
+    "between structures by 10 to 20 % (page Refinement).",
     grid=rough.FINE,
     seeds="1 to 5; maps of seed 1 with 0.5 at 1e-3 E3, layers of one rms height, 0.5 um",
 )

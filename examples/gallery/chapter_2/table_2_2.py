@@ -25,7 +25,13 @@ PAGE = Page(
     choices="Thresholds on the median change against I: below 3 % none, up to 20 % one arrow, "
     "beyond two. Stiffness: layers of 10 rms heights at 4e-6 E3, shortest wave 156 nm. Hardness: "
     "layers of one rms height at 1e-3 E3, shortest wave 39 nm, continuous rule. Friction is read "
-    "from the area, wear from the stress.",
+    "from the area, wear from the stress."
+    " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
+    "between structures by 10 to 20 % (page Refinement)."
+    " The area at the lowest load is that of a few spots: Fig. 2.10 adds it over the loads. "
+    "The columns of friction, wear and suggestion follow in the source from those of area and "
+    "stress; its arrows of wear of soft and hard layers (plastic contact easy or hard) are "
+    "those of the plastic area, Figs. 2.14 and 2.15.",
     grid=f"stiffness: {rough.WIDE}; hardness: {rough.FINE}",
     seeds="1 to 5, each against structure I on the same surface",
 )

@@ -43,7 +43,9 @@ PAGE = Page(
     "its volume; drawn in, it delivers half of that impulse. That the angles matter little "
     "follows: 94 % of the impulse is reached at twice the initial gap, long before rupture.",
     grid="120 gaps from h0 to the limit of stability, 60/60 degrees; rupture of all four pairs",
-    choices="The film is a disc of the volume pi x^2 h0; constant speed in panel (c).",
+    choices="The film is a disc of the volume pi x^2 h0; constant speed in panel (c)."
+    " Curves and panels are of 60/60 degrees only; 0/60, 120/120 and 180/120 of the source's "
+    "panels are the values at rupture of panel (d).",
 )
 
 

@@ -43,7 +43,9 @@ PAGE = Page(
     "a force.",
     grid="100 gaps up to rupture; 61 gaps at the start from 0 to 1.5 nm",
     choices="Volume of the revolved arc. For a touching sphere the impulse counts from a gap of "
-    "0.165 or 0.3 nm, the cut-offs of solids and of a layer of water.",
+    "0.165 or 0.3 nm, the cut-offs of solids and of a layer of water."
+    " The source's dimensionless panels are left out: force over gamma R and t_s F over eta R2 "
+    "are these curves in other units.",
 )
 
 STARTS = (0.0, 1 * nm)

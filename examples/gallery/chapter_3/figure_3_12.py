@@ -43,7 +43,9 @@ PAGE = Page(
     "falls beyond. Its break distance, the closed neck, is what makes the printed viscous force "
     "fall, by less than a per cent, near 180 degrees.",
     grid="19 angles along each axis of the lines, 25 x 25 pairs in the map",
-    choices="Circle of 100 nm on the lower body, which is pulled, at every pair of angles.",
+    choices="Circle of 100 nm on the lower body, which is pulled, at every pair of angles."
+    " The source's map of the viscous force over both angles is not drawn: it is constant to 1 "
+    "%; panel (d) is the maximum of the printed meniscus force instead.",
 )
 
 FIXED = ((60, np.linspace(0.0, 90.0, 19)), (120, np.linspace(90.0, 180.0, 19)))  # [deg]

@@ -150,16 +150,16 @@ def stress(
     """Stress xx, yy, zz, xy, yz, xz (6, n, n) [Pa] at a depth [m] under p and s_xz = -friction p.
 
     The pressure is the cubic spline through its pixels: waves shorter than two pixels are summed up
-    to three times the highest wavenumber of the grid. The mean of the load, 1e-3 of the largest
-    pressure and less, is left out. On an interface `side` is 1 for the body below, -1 above.
+    to three times the highest wavenumber of the grid. The mean of the load strains the body along z
+    only. On an interface `side` is 1 for the body below, -1 above.
     """
     n = len(pressure)
     qx, qy, _ = _waves(n, width)
     top = 2.0 * np.pi * n / width
     known = np.geomspace(1.9 * np.pi / width, 2.2 * top, 2000)
     of_plane, of_across = _transfer(known, solid, depth, side)
-    load = np.fft.fft2(pressure)
-    load[0, 0] = 0.0
+    mean = float(pressure.mean())
+    load = np.fft.fft2(pressure - mean)
     sums = np.zeros((6, n, n), complex)
     for fold_x, fold_y in product((-1.0, 0.0, 1.0), repeat=2):
         kx, ky = qx + fold_x * top, qy + fold_y * top
@@ -188,7 +188,9 @@ def stress(
                 c * tz - s * nz,
             )
         )
-    return np.array([np.fft.ifft2(part * load).real for part in sums])
+    aside = solid.poisson / (1.0 - solid.poisson)
+    even = -mean * np.array([aside, aside, 1.0, 0.0, 0.0, friction])
+    return np.array([np.fft.ifft2(part * load).real for part in sums]) + even[:, None, None]
 
 
 def maxima(field: Array) -> tuple[float, float, float]:
