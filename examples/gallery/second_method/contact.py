@@ -36,7 +36,8 @@ def _iterated(
     p: Array, heights: Array, compliance: Array, hardness: float, enough: float
 ) -> tuple[Array, Array]:
     """Conjugate gradients among the pixels between the bounds, restarted when these change."""
-    mean, size, sets = p.mean(), 1.0, np.zeros(p.shape, bool)
+    mean, size, sets = float(p.mean()), 1.0, np.zeros(p.shape, bool)
+    step = mean / np.ptp(heights)
     t = np.zeros_like(p)
     for _ in range(3000):
         gap = np.fft.ifft2(compliance * np.fft.fft2(p)).real - heights
@@ -47,11 +48,14 @@ def _iterated(
         if max(wrong.max(), np.abs(gap[free]).max(initial=0.0)) < enough:
             return p, gap
         norm = float((gap[free] ** 2).sum())
-        t = np.where(free, gap + (norm / size * t if np.array_equal(free, sets) else 0.0), 0.0)
+        keep = norm / size if size > 0.0 and np.array_equal(free, sets) else 0.0
+        t = np.where(free, gap + keep * t, 0.0)
         size, sets = norm, free
         r = np.fft.ifft2(compliance * np.fft.fft2(t)).real
         r -= r[free].mean()
-        step = float((gap * t)[free].sum() / (r * t)[free].sum())
+        bend = float((r * t)[free].sum())
+        if bend > 0.0:  # zero for a single pixel between the bounds: its step is the last one
+            step = float((gap * t)[free].sum()) / bend
         p = np.clip(np.where(free, p - step * t, p), 0.0, hardness)
         back = ((p <= 0.0) & (gap < 0.0)) | ((p >= hardness) & (gap > 0.0))
         p = np.clip(np.where(back, p - step * gap, p), 0.0, hardness)
