@@ -48,10 +48,10 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         ]
         cases = [(surface, stack) for stack in stacks]
         found.append(rough.curves(cases, sampling, LOADS, COLUMNS, hard))
-    cases = [pressed(sampling, Case(4e-6, name)) for name in NAMES]
+    alone = [pressed(sampling, Case(4e-6, name)) for name in NAMES]
     full = pressed(sampling, Case(1e-3, surface=1, thickness=100e-9))
     second = {
-        "second": np.array([[c.max_pressure, c.fraction, c.max_displacement] for c in cases]).T,
+        "second": np.array([[c.max_pressure, c.fraction, c.max_displacement] for c in alone]).T,
         "second_plastic": np.array([full.max_pressure, full.plastic_fraction()]),
     }
     return {name: np.array([one[name] for one in found]) for name in COLUMNS} | second

@@ -54,8 +54,8 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         if height == HEIGHTS[0]:
             both = rough.curves(cases[:3], sampling(draft), LOADS, columns, hard, pulls)
     made = {name: np.array([one[name] for one in found]) for name in columns}
-    found = made | {f"consistent_{name}": both[name] for name in columns}
-    return found | {"second": _second(sampling(draft), both["meniscus_force"][0, 0, 2])}
+    every = made | {f"consistent_{name}": both[name] for name in columns}
+    return every | {"second": _second(sampling(draft), both["meniscus_force"][0, 0, 2])}
 
 
 def _second(sampling: rough.Sampling, pull: float) -> np.ndarray:

@@ -121,9 +121,9 @@ def table(data: dict[str, Any]) -> Table:
     for pair in PAIRS:
         for height, (exact, printed) in zip(HEIGHTS, data[f"numbers_{key(pair)}"], strict=True):
             rows.append([f"{pair[0]}/{pair[1]}", f"{height / nm:g}", *exact, printed[0]])
-    for pair, found in zip(PULLED, data["numbers_pulled"].T, strict=True):
+    for other, found in zip(PULLED, data["numbers_pulled"].T, strict=True):
         for height, printed in zip(HEIGHTS, found, strict=True):
-            rows.append([f"{pair[0]:g}/{pair[1]:g}", f"{height / nm:g}", "-", "-", printed])
+            rows.append([f"{other[0]:g}/{other[1]:g}", f"{height / nm:g}", "-", "-", printed])
     head = ["angles [deg]", "h0 [nm]", "optimal N", "maximum stable N", "optimal N as printed"]
     return Table(head, rows)
 
