@@ -69,7 +69,8 @@ def _with_mean(p: Array, mean: float, hardness: float) -> Array:
         below = p < hardness
         rest = mean * p.size - p[~below].sum()
         if rest <= 0.0 or not p[below].any():
-            return p * (mean / p.mean())
+            scaled: Array = p * (mean / p.mean())
+            return scaled
         p = np.where(below, p * (rest / p[below].sum()), p)
         if p.max() <= hardness:
             break

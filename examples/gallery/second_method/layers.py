@@ -115,7 +115,8 @@ def of_waves(q: Array, solid: Layers) -> Array:
     first = _plane(q, 0.0, h, _shear(one, 0), one.poisson, len(one.moduli) > 1)
     c = _coefficients(q, one, False)[0]
     moved = np.einsum("wk,wk->w", first[:, 1], c[:, :, 0]).real
-    return -moved / (q * solid.moduli[-1])
+    found: Array = -moved / (q * solid.moduli[-1])
+    return found
 
 
 def _shear(solid: Layers, k: int) -> float:
