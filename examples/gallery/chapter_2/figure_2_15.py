@@ -164,6 +164,13 @@ def check(data: Data) -> list[Check]:
             bool((np.abs(area / area[0] - 1.0) < 0.2).all()),
             ", ".join(f"{n}' {100.0 * a:.1f} %" for n, a in zip(NAMES, area, strict=True)),
         ),
+        *_against_second(data),
+    ]
+
+
+def _against_second(data: Data) -> list[Check]:
+    """Numbers of the page by the second method."""
+    return [
         *(
             agree(f"{what} of I' at 1e-5 and 1e-3 E3", data[name][1, 0, 0, [0, 5]], data[second])
             for what, name, second in (

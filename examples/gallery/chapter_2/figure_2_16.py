@@ -137,6 +137,14 @@ def check(data: Data) -> list[Check]:
             bool((np.median(thick[iv], axis=0) > 0.99).all()),
             f"0: {rough.spread(thick[iv][..., 0])}, 0.5: {rough.spread(thick[iv][..., 3])}",
         ),
+        *_against_second(data),
+    ]
+
+
+def _against_second(data: Data) -> list[Check]:
+    """Numbers of the page by the second method."""
+    stress, iii = data["stress"], STRUCTURES.index("III")
+    return [
         agree(
             "von Mises, tension, s_xz with friction of 0.5, thick I and thin III",
             [stress[1, 0, 0, 3], stress[0, iii, 0, 3]],

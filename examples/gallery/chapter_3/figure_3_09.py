@@ -155,6 +155,14 @@ def check(data: dict[str, Any]) -> list[Check]:
             f"largest over smallest of five heights at the start: {_spread(data, 0.0):.2f} "
             f"and {_spread(data, 1.0):.3f}",
         ),
+        *_against_second(data),
+    ]
+
+
+def _against_second(data: dict[str, Any]) -> list[Check]:
+    """Numbers of the page by the second method."""
+    curves = {(p, i): data[f"{key(p)}_{i}"] for p in PAIRS for i in range(len(HEIGHTS))}
+    return [
         agree(
             "exact force at the start, 2 and 6 nm, all pairs",
             [[curves[p, i][1, 0] for i in (0, 4)] for p in PAIRS],

@@ -186,6 +186,13 @@ def check(data: dict[str, Any]) -> list[Check]:
             )
             + " nm",
         ),
+        *_against_second(data),
+    ]
+
+
+def _against_second(data: dict[str, Any]) -> list[Check]:
+    """Numbers of the page by the second method."""
+    return [
         agree(
             "impulse over the time, from 1 nm, s0 = 2 and 6 nm",
             [data[f"viscous_1_{i}"][0][-1] for i in (0, 4)],

@@ -259,6 +259,14 @@ def check(data: dict[str, Any]) -> list[Check]:
             all(bool(np.all(np.diff(d[2]) < 0.0)) for d in ends.values()),
             f"at 1000: {listed(lower)} of one over N",
         ),
+        *_against_second(data),
+    ]
+
+
+def _against_second(data: dict[str, Any]) -> list[Check]:
+    """Numbers of the page by the second method."""
+    ends = {p: data[f"divided_{p[0]}_{p[1]}"] for p in DIVIDED}
+    return [
         agree(
             "force and impulse over the time of one meniscus of 60/60, 1 um2 at 2 nm",
             ends[60, 60][1:, 0],
