@@ -12,6 +12,7 @@ import pytest
 
 from contactkit.elasticity.layered import compliance
 from contactkit.elasticity.stress.measures import max_principal_stress, sqrt_j2, tresca, von_mises
+from contactkit.gallery.chapter_3.films import PAIRS, break_gaps, volume
 from contactkit.reference import hamilton, hertz
 
 ROOT = Path(__file__).parents[2]
@@ -159,3 +160,27 @@ def test_the_principal_stress_of_the_plane_is_that_of_the_tensor_at_the_surface(
         plane = 0.5 * (s[0] + s[1]) + np.hypot(0.5 * (s[0] - s[1]), s[3])
         off = np.abs(plane - max_principal_stress(s))[np.abs(x) > 1.0].max()
         assert (off < 1e-12) == same
+
+
+def test_the_separation_time_is_not_that_of_the_injector():
+    """Section 3.4: 500 us at 40 mm/s; section 3.2.4: 0.1 us at some metres per second."""
+    travel = 500e-6 * 40e-3
+    assert travel == pytest.approx(20e-6)
+    assert travel / 0.1e-6 == pytest.approx(200.0)  # m/s
+    assert pytest.approx(5000.0) == 500e-6 / 0.1e-6
+
+
+def test_the_height_matters_alike_for_the_break_of_every_pair():
+    ratios = []
+    for pair in PAIRS:
+        low, high = (break_gaps(volume(h, pair), pair)[0] for h in (2e-9, 6e-9))
+        ratios.append(high / low)
+    np.testing.assert_allclose(ratios, 3.0 ** (1.0 / 3.0), rtol=0.02)
+    assert max(ratios) / min(ratios) < 1.04
+
+
+def test_a_mirror_fills_its_pitch():
+    """Section 3.4: a pitch of 13 um."""
+    pitch = 13.0**2  # um2
+    assert 12.0**2 / pitch == pytest.approx(0.85, abs=0.01)
+    assert 12.0 / pitch == pytest.approx(0.07, abs=0.005)

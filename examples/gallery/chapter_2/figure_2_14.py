@@ -10,6 +10,7 @@ from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.curve_figure import draw_panel
 from contactkit.gallery.chapter_2.stress_maps import map_figure, maps, stacked
+from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -50,7 +51,16 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         run = ck.solve(made.with_loading(ck.Pressing(pressure=MAP_LOAD * rough.MODULUS)))
         shown.append(maps(run, round(CROP / sampling.width * sampling.pixels)))
     curves = {name: np.concatenate([run[name] for run in runs]) for name in COLUMNS}
-    return stacked(shown) | curves | {"elastic_pressure": elastic["max_pressure"][0]}
+    case = Case(1e-3, thickness=1e-9)
+    flows = [pressed(sampling, case._replace(hardness=h)) for h in (2.5e9, 5e9)]
+    second = {
+        "second_elastic": np.array(
+            pressed(sampling, case._replace(load=1e-5, hardness=np.inf)).max_pressure
+        ),
+        "second_area": np.array([one.fraction for one in flows]),
+        "second_plastic": np.array(flows[0].plastic_fraction(2.5e9)),
+    }
+    return stacked(shown) | curves | {"elastic_pressure": elastic["max_pressure"][0]} | second
 
 
 def first_yield(data: Data) -> np.ndarray:
@@ -113,6 +123,13 @@ def check(data: Data) -> list[Check]:
             "the softer, the larger the contact area at 4e-3 E3",
             bool((np.diff(area, axis=0) < 0.0).all()),
             ", ".join(rough.spread(100.0 * one) for one in area) + " %",
+        ),
+        agree(
+            "elastic pressure at 1e-5 E3", data["elastic_pressure"][0, 1], data["second_elastic"]
+        ),
+        agree("area at 1e-3 E3", data["contact_fraction"][:2, 0, 5], data["second_area"]),
+        agree(
+            "plastic area at 1e-3 E3, the softest", plastic[0, 0, 5], data["second_plastic"], 0.02
         ),
     ]
 

@@ -16,6 +16,7 @@ from contactkit.elasticity.hardness_rules import (
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.curve_figure import draw_panel, labelled
 from contactkit.gallery.chapter_2.stress_maps import map_figure, maps, stacked
+from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -76,7 +77,14 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         for rule in (effective_hardness_literal, effective_hardness)
     ]
     curves = {name: np.array(values).reshape(shape) for name, values in found.items()}
-    return stacked(shown) | curves | {"u": u, "rules": np.array(rules) / rough.HARDNESS}
+    low, high = (pressed(sampling, Case(load, thickness=1e-9)) for load in (1e-5, 1e-3))
+    second = {
+        "second_moved": np.array([low.max_displacement, high.max_displacement]),
+        "second_area": np.array([low.fraction, high.fraction]),
+        "second_pressure": np.array([low.max_pressure, high.max_pressure]),
+    }
+    drawn = {"u": u, "rules": np.array(rules) / rough.HARDNESS}
+    return stacked(shown) | curves | drawn | second
 
 
 def draw(data: Data) -> tuple[plot.Figure, plot.Figure]:
@@ -123,7 +131,6 @@ def check(data: Data) -> list[Check]:
     failed = np.isnan(data["max_pressure"]).sum(axis=(2, 3))
     peak = data["max_pressure"][0]
     same = max(float(np.abs(peak[a] / peak[b] - 1.0).max()) for a, b in ((ii, iv), (iii, v)))
-    area = np.nanmedian(data["contact_fraction"][1][:, :, -1], axis=1)
     return [
         *checks,
         Check(
@@ -151,10 +158,31 @@ def check(data: Data) -> list[Check]:
             f"maximum pressures differ by at most {same:.0e}; least displacement "
             f"{data['max_displacement'].min() * 1e9:.2f} nm, jump at 0.30 nm",
         ),
-        Check(
-            "contact areas differ by less than 20 % under the largest load",
-            bool((np.abs(area / area[0] - 1.0) < 0.2).all()),
-            ", ".join(f"{n}' {100.0 * a:.1f} %" for n, a in zip(NAMES, area, strict=True)),
+        _areas(data),
+        *_against_second(data),
+    ]
+
+
+def _areas(data: Data) -> Check:
+    """How little the contact areas differ."""
+    area = np.nanmedian(data["contact_fraction"][1][:, :, -1], axis=1)
+    return Check(
+        "contact areas differ by less than 20 % under the largest load",
+        bool((np.abs(area / area[0] - 1.0) < 0.2).all()),
+        ", ".join(f"{n}' {100.0 * a:.1f} %" for n, a in zip(NAMES, area, strict=True)),
+    )
+
+
+def _against_second(data: Data) -> list[Check]:
+    """Numbers of the page by the second method."""
+    return [
+        *(
+            agree(f"{what} of I' at 1e-5 and 1e-3 E3", data[name][1, 0, 0, [0, 5]], data[second])
+            for what, name, second in (
+                ("displacement", "max_displacement", "second_moved"),
+                ("area", "contact_fraction", "second_area"),
+                ("pressure, at the higher load the hardness", "max_pressure", "second_pressure"),
+            )
         ),
     ]
 

@@ -9,6 +9,7 @@ from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.curve_figure import draw_panel, labelled
+from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -53,7 +54,21 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         if height == HEIGHTS[0]:
             both = rough.curves(cases[:3], sampling(draft), LOADS, columns, hard, pulls)
     made = {name: np.array([one[name] for one in found]) for name in columns}
-    return made | {f"consistent_{name}": both[name] for name in columns}
+    every = made | {f"consistent_{name}": both[name] for name in columns}
+    return every | {"second": _second(sampling(draft), both["meniscus_force"][0, 0, 2])}
+
+
+def _second(sampling: rough.Sampling, pull: float) -> np.ndarray:
+    """Film force [N] of I, III and thin IV; of I under a load that a film force [N] adds to."""
+    found = [
+        pressed(sampling, Case(load, name, thickness)).film_force()
+        for load, name, thickness in (
+            (4e-6, "I", 10e-9),
+            (1e-4, "III", 10e-9),
+            (1e-4, "IV", 1e-9),
+        )
+    ]
+    return np.array([*found, pressed(sampling, Case(4e-5), pull / sampling.width**2).film_force()])
 
 
 def draw(data: Data) -> plot.Figure:
@@ -128,6 +143,16 @@ def check(data: Data) -> list[Check]:
             "a film that adds to the load pulls more than 4 times as hard at the lowest load",
             rough.all_above(both[:, 0], 4.0),
             f"{rough.spread(both[:, 0])} times; at the highest load {rough.spread(both[:, -1])}",
+        ),
+        agree(
+            "force of I at 4e-6 E3, of III and thin IV at 1e-4, of I added to a load of 4e-5",
+            [
+                force[0, 0, 0, 0],
+                force[0, iii, 0, 3],
+                force[1, iv, 0, 3],
+                data["consistent_meniscus_force"][0, 0, 2],
+            ],
+            data["second"],
         ),
     ]
 

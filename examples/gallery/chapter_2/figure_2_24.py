@@ -9,6 +9,7 @@ from contactkit.app.gallery.page import Check, Data, Page
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.curve_figure import draw_panel, labelled
+from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -52,7 +53,11 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         for h in HOMOGENEOUS
     ]
     plain = {f"plain_{n}": np.concatenate([one[n] for one in single]) for n in COLUMNS}
-    return layered | plain
+    second = [
+        pressed(sampling, Case(load, thickness=1e-9, hardness=hardness)).film_force()
+        for load, hardness in ((1e-5, 5e9), (4e-3, 2.5e9))
+    ]
+    return layered | plain | {"second": np.array(second)}
 
 
 def draw(data: Data) -> plot.Figure:
@@ -109,6 +114,11 @@ def check(data: Data) -> list[Check]:
                 f"{STRUCTURES[k]}' {rough.spread(100.0 * change[k, :, -1])} %"
                 for k in (ii, iii, iv, v)
             ),
+        ),
+        agree(
+            "force of a homogeneous body at 1e-5 E3, and of one half as hard at 4e-3",
+            [data["plain_meniscus_force"][0, 0, 0], data["plain_meniscus_force"][1, 0, -1]],
+            data["second"],
         ),
     ]
 

@@ -9,6 +9,7 @@ from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.curve_figure import draw_panel, labelled
+from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -41,7 +42,12 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
     rougher = [(rough.SURFACES[1], stacks[0])]
     thin = ck.FilmMeniscus(film_thickness=1.0 * rough.NM)
     same = rough.curves(rougher, sampling, LOADS, (NAME,), ck.HardnessLimit(), thin)
-    return {"relative": np.array(found), "thin_film": same[NAME][0]}
+    load = 4e-6 * 100e9 * sampling.width**2
+    second = [
+        pressed(sampling, Case(4e-6, "I", 1e-9, i)).film_force(film) / load
+        for i, film in enumerate((1e-9, 10e-9, 1e-9))
+    ]
+    return {"relative": np.array(found), "thin_film": same[NAME][0], "second": np.array(second)}
 
 
 def draw(data: Data) -> plot.Figure:
@@ -79,6 +85,7 @@ def check(data: Data) -> list[Check]:
             f"first surface, I: {rough.spread(values[0, 0, :, 0])} to "
             f"{rough.spread(values[0, 0, :, -1])}",
         ),
+        agree("force of I over the load of 4e-6 E3", values[:, 0, 0, 0], data["second"]),
     ]
 
 

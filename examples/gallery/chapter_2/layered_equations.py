@@ -18,6 +18,8 @@ from contactkit.gallery.chapter_2.printed_layers import (
     field,
     surface,
 )
+from contactkit.gallery.second_method import layers
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -96,7 +98,11 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
             all_wrong.append(abs(surface(wrong, wave, G, nu, OF_SURFACE) / right))
             within.append(_within(solid, wave))
     shape = (len(CASES), len(waves), -1)
+    plain = Wave(1e-6, 1.0, 0.0)
+    first = CASES["IV"]
+    moved = surface(by_elimination(first, plain), plain, first.G[0], first.nu[0])
     return {
+        "moved": np.array(moved.real),
         "surface": np.array(on_surface).reshape(shape),
         "field": np.array(within).reshape(shape),
         "agreement": np.array(agreement).reshape(shape),
@@ -227,6 +233,12 @@ def check(data: Data) -> list[Check]:
             "with all errata at once the displacement is off by a factor of ten at some wavenumber",
             bool(np.abs(np.log10(data["all"])).max() > 1.0),
             f"{data['all'].min():.2g} to {data['all'].max():.2g} times",
+        ),
+        agree(
+            "displacement of IV under a wave of unit wavenumber, without friction",
+            data["moved"],
+            layers.of_waves(np.array([1.0]), layers.Layers((2.6, 1.3, 2.6), 0.3, (0.7, 1.1))),
+            1e-6,
         ),
     ]
 

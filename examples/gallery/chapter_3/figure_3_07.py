@@ -17,6 +17,8 @@ from contactkit.capillary.arc.profile import arc_profile
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.capillary.exact.profile import profile
 from contactkit.gallery.chapter_3.films import PAIRS, angles, break_gaps, key, volume
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import nm
@@ -124,6 +126,11 @@ def check(data: dict[str, Any]) -> list[Check]:
             "the meridian of the arc is within 2 % at a quarter of the way, not at the limit",
             early < 0.02 < late,
             f"up to {100 * early:.1f} % of the radius, and {100 * late:.0f} %",
+        ),
+        agree(
+            "gap at which the neck of the arc of 60/60 closes",
+            data["limits_60_60"][1],
+            bridges.closed_gap(bridges.arc_volume(100e-9, 2e-9, 60, 60), 60, 60),
         ),
     ]
 

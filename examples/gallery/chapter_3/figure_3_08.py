@@ -12,6 +12,7 @@ from contactkit.capillary.arc.profile import arc_profile
 from contactkit.capillary.exact.bridge import bridge
 from contactkit.capillary.exact.profile import profile
 from contactkit.gallery.chapter_3.films import RADIUS, angles, sphere_break_gaps, sphere_volume
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import nm
@@ -102,6 +103,12 @@ def check(data: dict[str, Any]) -> list[Check]:
             "the neck of the arc closes at more than three times the exact limit",
             min(apart_arc / apart, touching_arc / touching) > 3.0,
             f"{apart_arc / apart:.2f} and {touching_arc / touching:.2f} times",
+        ),
+        agree(
+            "gap at which the neck of the arc closes, 1 nm at the start (section 3.2.3)",
+            data["limits_1"][1],
+            45.204e-9,
+            1e-3,
         ),
     ]
 

@@ -25,6 +25,8 @@ from contactkit.gallery.chapter_3.films import (
     separations,
     volume,
 )
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import nm
@@ -152,6 +154,19 @@ def check(data: dict[str, Any]) -> list[Check]:
             _spread(data, 0.0) > 1.5 and _spread(data, 1.0) < 1.1,
             f"largest over smallest of five heights at the start: {_spread(data, 0.0):.2f} "
             f"and {_spread(data, 1.0):.3f}",
+        ),
+        *_against_second(data),
+    ]
+
+
+def _against_second(data: dict[str, Any]) -> list[Check]:
+    """Numbers of the page by the second method."""
+    curves = {(p, i): data[f"{key(p)}_{i}"] for p in PAIRS for i in range(len(HEIGHTS))}
+    return [
+        agree(
+            "exact force at the start, 2 and 6 nm, all pairs",
+            [[curves[p, i][1, 0] for i in (0, 4)] for p in PAIRS],
+            [[bridges.film_force(100e-9, h, *p) for h in (2e-9, 6e-9)] for p in PAIRS],
         ),
     ]
 

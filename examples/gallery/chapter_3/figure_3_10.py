@@ -24,6 +24,8 @@ from contactkit.gallery.chapter_3.films import (
     separations,
     volume,
 )
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.lubrication.squeeze_film import disc_force, disc_impulse_conserved
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import SERIES, Figure, letters
@@ -41,8 +43,13 @@ PAGE = Page(
     "its volume; drawn in, it delivers half of that impulse. That the angles matter little "
     "follows: 94 % of the impulse is reached at twice the initial gap, long before rupture.",
     grid="120 gaps from h0 to the limit of stability, 60/60 degrees; rupture of all four pairs",
-    choices="The film is a disc of the volume pi x^2 h0; constant speed in panel (c).",
+    choices="The film is a disc of the volume pi x^2 h0; constant speed in panel (c)."
+    " Curves and panels are of 60/60 degrees only; 0/60, 120/120 and 180/120 of the source's "
+    "panels are the values at rupture of panel (d).",
 )
+
+
+_FILMS = (2e-9, 3e-9, 4e-9, 5e-9, 6e-9)  # of the caption once more, for the second method
 
 
 def compute(draft: bool = False) -> dict[str, Any]:
@@ -165,6 +172,11 @@ def check(data: dict[str, Any]) -> list[Check]:
             "94 % of the impulse is reached at twice the initial gap",
             all(abs(t - 15.0 / 16.0) < 0.01 for t in twice),
             f"{ratio_text(twice)} of the whole",
+        ),
+        agree(
+            "impulse over the time at rupture, 60/60",
+            at[:, 1],
+            [bridges.disc_impulse(math.pi * 1e-14 * h, h) / 1e-7 for h in _FILMS],
         ),
     ]
 

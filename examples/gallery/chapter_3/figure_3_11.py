@@ -21,6 +21,8 @@ from contactkit.gallery.chapter_3.films import (
     sphere_break_gaps,
     sphere_volume,
 )
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.lubrication.squeeze_film import sphere_impulse_conserved
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import SERIES, Figure, letters
@@ -41,7 +43,9 @@ PAGE = Page(
     "a force.",
     grid="100 gaps up to rupture; 61 gaps at the start from 0 to 1.5 nm",
     choices="Volume of the revolved arc. For a touching sphere the impulse counts from a gap of "
-    "0.165 or 0.3 nm, the cut-offs of solids and of a layer of water.",
+    "0.165 or 0.3 nm, the cut-offs of solids and of a layer of water."
+    " The source's dimensionless panels are left out: force over gamma R and t_s F over eta R2 "
+    "are these curves in other units.",
 )
 
 STARTS = (0.0, 1 * nm)
@@ -181,6 +185,18 @@ def check(data: dict[str, Any]) -> list[Check]:
                 for i in range(len(HEIGHTS))
             )
             + " nm",
+        ),
+        *_against_second(data),
+    ]
+
+
+def _against_second(data: dict[str, Any]) -> list[Check]:
+    """Numbers of the page by the second method."""
+    return [
+        agree(
+            "impulse over the time, from 1 nm, s0 = 2 and 6 nm",
+            [data[f"viscous_1_{i}"][0][-1] for i in (0, 4)],
+            [bridges.sphere_impulse(100e-9, 1e-9, s) / 1e-7 for s in (2e-9, 6e-9)],
         ),
     ]
 

@@ -27,6 +27,8 @@ from contactkit.gallery.chapter_3.films import (
     sphere_volume,
     volume,
 )
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.lubrication.squeeze_film import disc_impulse_conserved
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
@@ -163,6 +165,15 @@ def check(data: dict[str, Any]) -> list[Check]:
             "under a sphere a higher film has the larger impulse, between flats the smaller",
             bool(np.all(np.diff(apart[:, 0]) > 0.0) and np.all(np.diff(data["flats"][:, 0]) < 0.0)),
             f"sphere 1 nm away {listed(apart[:, 0], 1e16)} e-16 N.s",
+        ),
+        agree(
+            "impulses between flats and under a sphere 1 nm away, force between flats, 2 nm",
+            [data["flats"][0, 0], apart[0, 0], data["flats"][0, 2]],
+            [
+                bridges.disc_impulse(math.pi * 1e-14 * 2e-9, 2e-9),
+                bridges.sphere_impulse(100e-9, 1e-9, 2e-9),
+                bridges.film_force(100e-9, 2e-9, 60, 60),
+            ],
         ),
     ]
 

@@ -25,6 +25,8 @@ from contactkit.gallery.chapter_3.films import (
     ratio_text,
     volume,
 )
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.lubrication.squeeze_film import disc_impulse_conserved
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
@@ -153,6 +155,19 @@ def check(data: dict[str, Any]) -> list[Check]:
             bool(np.all(np.abs(exact / printed - 1.96)[:, at] < 0.03)),
             f"{ratio_text((exact / printed).ravel())} times over all times; printed at 0.1 us "
             f"{listed(printed[:, at])} um2",
+        ),
+        agree(
+            "forces of 60/60 at 1e-3 um2, 2 nm",
+            [curve[0, 0], curve[2, 0]],
+            [
+                bridges.film_force(math.sqrt(1e-15 / math.pi), 2e-9, 60, 60),
+                bridges.disc_impulse(1e-15 * 2e-9, 2e-9) / 1e-7,
+            ],
+        ),
+        agree(
+            "critical area of 60/60 and 0/60 at 0.1 us, 2 nm",
+            [exact[0, at], unlike[0, 0, at]],
+            [bridges.equal_area(2e-9, 60, 60), bridges.equal_area(2e-9, 0, 60)],
         ),
     ]
 

@@ -20,6 +20,8 @@ from contactkit.gallery.chapter_3.films import (
     key,
     ratio_text,
 )
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import nm, um
@@ -29,7 +31,10 @@ PAGE = Page(
     title="A film divided into N menisci",
     claim="Dividing 1 um2 of film raises the meniscus force, by the root of N if the menisci "
     "are small, and lowers the viscous force as 1/N; the sum has a minimum at a few hundred.",
-    verdict="The trends and the few hundred hold for 2 nm; from 5 nm on it is below a hundred. "
+    verdict="The trends and the few hundred hold for 2 nm; from 5 nm on it is below a hundred. Of "
+    "0/60 the source has a few hundred too: so it is only if the body of 60 degrees is pulled, "
+    "while in Fig. 3.9 it is that of 0 degrees, for which the printed law has no minimum. The "
+    "source is inconsistent about the body that is pulled. "
     "Eq. (3.33) rises without end where the exact force of many small menisci levels off or, "
     "for 0/60 degrees, falls again, and it gives numbers for menisci that do not exist: at 6 nm "
     "at most 80 000 bridges of 60/60 degrees are stable, 14 000 of 0/60; the figure goes to 100 "
@@ -40,6 +45,7 @@ PAGE = Page(
 
 AREA = 1 * um**2
 PAIRS = ((60, 60), (0, 60))
+PULLED = ((0.001, 60), (60, 0.001))  # 0 deg is 0.001 deg in the source; the first body is pulled
 LAWS: tuple[str, str] = ("exact", "as-published")
 
 
@@ -57,10 +63,16 @@ def compute(draft: bool = False) -> dict[str, Any]:  # a draft is as large
                 data[f"{law}_{key(pair)}_{i}"] = rows
                 numbers.append([found.best_count, found.max_stable_count])
         data[f"numbers_{key(pair)}"] = np.array(numbers).reshape(len(HEIGHTS), 2, 2)
+    data["numbers_pulled"] = np.array(
+        [
+            [_divided(h, pair, counts[:1], "as-published").best_count for pair in PULLED]
+            for h in HEIGHTS.tolist()
+        ]
+    )
     return data
 
 
-def _divided(height: float, pair: tuple[int, int], counts: list[int], law: Any) -> Any:
+def _divided(height: float, pair: tuple[float, float], counts: list[int], law: Any) -> Any:
     """Division of 1 um2 of film of a height."""
     lower, upper = angles(pair)
     water = ck.Liquid(name="water", surface_tension=GAMMA, viscosity=VISCOSITY)
@@ -109,6 +121,9 @@ def table(data: dict[str, Any]) -> Table:
     for pair in PAIRS:
         for height, (exact, printed) in zip(HEIGHTS, data[f"numbers_{key(pair)}"], strict=True):
             rows.append([f"{pair[0]}/{pair[1]}", f"{height / nm:g}", *exact, printed[0]])
+    for other, found in zip(PULLED, data["numbers_pulled"].T, strict=True):
+        for height, printed in zip(HEIGHTS, found, strict=True):
+            rows.append([f"{other[0]:g}/{other[1]:g}", f"{height / nm:g}", "-", "-", printed])
     head = ["angles [deg]", "h0 [nm]", "optimal N", "maximum stable N", "optimal N as printed"]
     return Table(head, rows)
 
@@ -117,6 +132,7 @@ def check(data: dict[str, Any]) -> list[Check]:
     """Powers of N, optima, ends of stability, and the error of Eq. (3.33)."""
     counts = data["counts"]
     like, unlike = (data[f"numbers_{key(pair)}"] for pair in PAIRS)
+    pulled = data["numbers_pulled"]
     exact, viscous = data["exact_60_60_0"]
     printed = data["as-published_60_60_4"][0]
     right = data["exact_60_60_4"][0]
@@ -156,6 +172,34 @@ def check(data: dict[str, Any]) -> list[Check]:
             "Eq. (3.33) is 40 % too large at 1e4 menisci of 6 nm",
             0.3 < printed[at] / right[at] - 1.0 < 0.5,
             f"{100 * (printed[at] / right[at] - 1.0):.0f} % at N = {counts[at]}",
+        ),
+        Check(
+            "0/60 as printed: a few hundred if the body of 60 deg is pulled; if that of 0 deg is, "
+            "as in Fig. 3.9, no optimum at all, or with the 0.001 deg of the source far above",
+            bool(
+                np.all(np.abs(pulled[:, 1] / like[:, 1, 0] - 1.0) < 0.02)
+                and np.all(pulled[:, 0] > 50_000)
+                and np.all(unlike[:, 1, 0] == unlike[:, 1, 1])
+            ),
+            f"2 to 6 nm: {', '.join(map(str, pulled[:, 1]))}; with 0.001 deg pulled "
+            f"{', '.join(map(str, pulled[:, 0]))}; with 0 deg the last arc that exists, "
+            f"{', '.join(map(str, unlike[:, 1, 0]))}",
+        ),
+        *_against_second(data),
+    ]
+
+
+def _against_second(data: dict[str, Any]) -> list[Check]:
+    """Numbers of the page by the second method."""
+    exact, viscous = data["exact_60_60_0"]
+    return [
+        agree(
+            "forces of one meniscus of 60/60, 2 nm",
+            [exact[0], viscous[0]],
+            [
+                bridges.bridge_force(1e-12 * 2e-9, 2e-9, 60, 60),
+                bridges.disc_impulse(1e-12 * 2e-9, 2e-9) / 1e-7,
+            ],
         ),
     ]
 

@@ -26,6 +26,8 @@ from contactkit.gallery.chapter_3.films import (
     sphere_volume,
     volume,
 )
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.lubrication.squeeze_film import disc_impulse_conserved
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import SERIES, Figure, letters
@@ -174,6 +176,15 @@ def check(data: dict[str, Any]) -> list[Check]:
             "one asperity has far smaller forces than a smooth film",
             min(few.values()) > 50.0 and min(drag.values()) > 1e4,
             f"meniscus {listed(few)} times less, viscous {min(drag.values()):.2g} times and more",
+        ),
+        agree(
+            "one meniscus of 60/60: force and impulse over the time; impulse of one asperity",
+            [smooth[60, 60][0, 0], smooth[60, 60][2, 0], rough[60, 60][2, 0]],
+            [
+                bridges.film_force(50e-6, 100e-9, 60, 60),
+                bridges.disc_impulse(math.pi * 2.5e-9 * 100e-9, 100e-9) / 1e-7,
+                bridges.sphere_impulse(50e-6, 10e-9, 100e-9) / 1e-7,
+            ],
         ),
     ]
 

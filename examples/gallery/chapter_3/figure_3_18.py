@@ -26,6 +26,8 @@ from contactkit.gallery.chapter_3.films import (
     heights_legend,
     ratio_text,
 )
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
 from contactkit.units import nm
@@ -158,6 +160,11 @@ def check(data: dict[str, Any]) -> list[Check]:
             "the travel to the end is 2 x between flats, and grows with the height under a sphere",
             bool(np.all(np.diff(ends) > 0.0)),
             f"flats 200 nm, sphere {', '.join(f'{e:.1f}' for e in ends)} nm",
+        ),
+        agree(
+            "impulse of flats over the time, 2 and 6 nm",
+            total["flats"][[0, 4]],
+            [bridges.lens_impulse(100e-9, h) / 1e-7 for h in (2e-9, 6e-9)],
         ),
     ]
 

@@ -17,6 +17,8 @@ from contactkit.gallery.chapter_3.films import (
     heights_legend,
     ratio_text,
 )
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.lubrication.couette_sphere import sphere_impulse as one_impulse
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
@@ -101,6 +103,11 @@ def check(data: dict[str, Any]) -> list[Check]:
             "its slope over the logarithm is 2 pi eta R x: the axis is over liquid half the way",
             bool(np.allclose(first / known, 1.0, atol=0.01)),
             f"{ratio_text(first / known)} of it",
+        ),
+        agree(
+            "impulse of flats, 2 and 6 nm",
+            data["flats"][[0, 4]],
+            [bridges.lens_impulse(100e-9, h) for h in (2e-9, 6e-9)],
         ),
     ]
 

@@ -14,6 +14,8 @@ from contactkit.as_published.printed.sliding import (
     sliding_sphere_divided_3_59,
 )
 from contactkit.gallery.chapter_3.films import SHADES, TIME, VISCOSITY, ratio_text
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.lubrication.couette_flat import flat_impulse
 from contactkit.lubrication.couette_sphere import sphere_impulse as one_impulse
 from contactkit.plot import style as plot
@@ -138,6 +140,11 @@ def check(data: dict[str, Any]) -> list[Check]:
             "of high films the menisci of neighbours overlap before N = 1e4",
             bool(data["overlap"][-1] < 1e4),
             f"from N = {', '.join(f'{n:.0f}' for n in data['overlap'])}",
+        ),
+        agree(
+            "impulse of one meniscus over the time, 100 and 500 nm",
+            data["smooth"][[0, 4], 0],
+            [bridges.lens_impulse(50e-6, h) / 1e-7 for h in (100e-9, 500e-9)],
         ),
     ]
 

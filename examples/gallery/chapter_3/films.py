@@ -72,7 +72,7 @@ def key(pair: Sequence[int]) -> str:
     return f"{pair[0]}_{pair[1]}"
 
 
-def angles(pair: Sequence[int]) -> tuple[float, float]:
+def angles(pair: Sequence[float]) -> tuple[float, float]:
     """Contact angles [rad] of a pair in degrees."""
     return pair[0] * deg, pair[1] * deg
 

@@ -22,6 +22,8 @@ from contactkit.gallery.chapter_3.films import (
     angles,
     volume,
 )
+from contactkit.gallery.second_method import bridges
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.lubrication.squeeze_film import disc_impulse_conserved
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters
@@ -256,6 +258,30 @@ def check(data: dict[str, Any]) -> list[Check]:
             "Table 3.2: more menisci lower the viscous impulse, for all angles",
             all(bool(np.all(np.diff(d[2]) < 0.0)) for d in ends.values()),
             f"at 1000: {listed(lower)} of one over N",
+        ),
+        *_against_second(data),
+    ]
+
+
+def _against_second(data: dict[str, Any]) -> list[Check]:
+    """Numbers of the page by the second method."""
+    ends = {p: data[f"divided_{p[0]}_{p[1]}"] for p in DIVIDED}
+    return [
+        agree(
+            "force and impulse over the time of one meniscus of 60/60, 1 um2 at 2 nm",
+            ends[60, 60][1:, 0],
+            [
+                bridges.bridge_force(1e-12 * 2e-9, 2e-9, 60, 60),
+                bridges.disc_impulse(1e-12 * 2e-9, 2e-9) / 1e-7,
+            ],
+        ),
+        agree(
+            "force and impulse over the time of 10/10 deg, circle of 100 nm at 2 nm",
+            [data["attraction"][0], data["viscous_attraction"][0]],
+            [
+                bridges.film_force(100e-9, 2e-9, 10, 10),
+                bridges.disc_impulse(math.pi * 1e-14 * 2e-9, 2e-9) / 1e-7,
+            ],
         ),
     ]
 

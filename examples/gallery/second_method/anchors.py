@@ -1,0 +1,121 @@
+"""Rough contacts of chapter 2 with the numbers of the captions, solved by the second method.
+
+Moduli, hardness, tension and angles stand here once more, as the captions have them: a page that
+gives its own solver another one disagrees with what is computed here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactkit.app.gallery.page import Check
+from contactkit.gallery.chapter_2 import rough_contact as rough
+from contactkit.gallery.second_method import contact, layers
+
+__all__ = ["Case", "Solved", "agree", "pressed"]
+
+Array = NDArray[Any]
+E3, NU, H3 = 100e9, 0.3, 5e9  # of the substrate [Pa], [-], [Pa]
+MODULI = {  # of the layers over E3
+    "I": (1.0, 1.0),
+    "II": (0.5, 0.5),
+    "III": (2.0, 2.0),
+    "IV": (1.0, 0.5),
+    "V": (1.0, 2.0),
+}
+SURFACES = ((1e-9, 0.5e-6), (10e-9, 0.5e-6), (1e-9, 0.05e-6))  # rms height and beta* [m]
+TENSION, ANGLE = 0.07275, math.pi / 3.0  # water [N/m], both contact angles [rad]
+
+
+class Case(NamedTuple):
+    """A contact of a caption: mean pressure over E3, structure, thickness of a layer [m], ..."""
+
+    load: float
+    structure: str = "I"
+    thickness: float = 10e-9
+    surface: int = 0
+    hardness: float = H3  # [Pa]
+
+
+class Solved(NamedTuple):
+    """A contact by the second method."""
+
+    pressure: Array
+    gap: Array
+    displacement: Array
+    sampling: rough.Sampling
+    solid: layers.Layers
+
+    @property
+    def max_pressure(self) -> float:
+        """Largest pressure [Pa]."""
+        return float(self.pressure.max())
+
+    @property
+    def fraction(self) -> float:
+        """Area of contact over that of the window."""
+        return float((self.pressure > 0.0).mean())
+
+    @property
+    def max_displacement(self) -> float:
+        """Largest displacement against its mean [m]."""
+        return float(self.displacement.max())
+
+    def plastic_fraction(self, hardness: float = H3) -> float:
+        """Area at a hardness [Pa] over that of the window."""
+        return float((self.pressure >= hardness * (1.0 - 1e-9)).mean())
+
+    def film_force(self, film: float = 1e-9) -> float:
+        """Laplace pressure times the area out of contact with a gap below that of a film [N]."""
+        wet = (self.pressure <= 0.0) & (self.gap <= film)
+        area = float(wet.mean()) * self.sampling.width**2
+        return TENSION * 2.0 * math.cos(ANGLE) / film * area
+
+    def stress(self, depths: Iterable[float], friction: float = 0.0) -> list[float]:
+        """Largest von Mises stress, tension and s_xz [Pa], each on the plane of its depth [m]."""
+        found = []
+        for k, depth in enumerate(depths):
+            sides = (
+                (1.0,)
+                if depth <= 0.0 or self.solid.moduli[0] == self.solid.moduli[1]
+                else (-1.0, 1.0)
+            )
+            planes = [
+                layers.stress(
+                    self.pressure, self.sampling.width, self.solid, float(depth), friction, side
+                )
+                for side in sides
+            ]
+            found.append(max(layers.maxima(plane)[k] for plane in planes))
+        return found
+
+
+def pressed(sampling: rough.Sampling, case: Case, more: float = 0.0) -> Solved:
+    """Solve a case on the surface of the first seed; `more` [Pa] is added to its load."""
+    rms, length = SURFACES[case.surface]
+    kind, body = rough.Rough(rms, length), rough.body((1.0, 1.0), (1.0, 1.0), case.thickness)
+    heights = np.asarray(rough.plan(kind, body, sampling, sampling.seeds[0]).heights)
+    moduli = tuple(E3 * ratio for ratio in (*MODULI[case.structure], 1.0))
+    solid = layers.Layers(moduli, NU, (case.thickness, case.thickness))
+    symbol = layers.compliance(sampling.pixels, sampling.width, solid)
+    mean = case.load * E3 + more
+    p, gap = contact.pressed(heights, symbol, mean, case.hardness)
+    moved = np.fft.ifft2(symbol * np.fft.fft2(p)).real
+    return Solved(p, gap, moved, sampling, solid)
+
+
+def agree(what: str, ours: Any, second: Any, within: float = 0.01) -> Check:
+    """Check that numbers of a page are those of the second method."""
+    one, two = np.ravel(np.asarray(ours, float)), np.ravel(np.asarray(second, float))
+    off = float(np.abs(one / two - 1.0).max())
+    shown = ", ".join(f"{a:.4g} and {b:.4g}" for a, b in list(zip(one, two, strict=True))[:4])
+    return Check(
+        f"{what}: as by a second method, with the numbers of the caption, to {100.0 * within:g} %",
+        bool(off < within),
+        f"{shown}{', ...' if one.size > 4 else ''} [SI]; largest difference {100.0 * off:.1e} %",
+    )
