@@ -24,7 +24,7 @@ def blocks(page, language):
     return [textwrap.dedent(body) for _, body in found]
 
 
-SLOW = ("adhesion", "head-disk", "hosts", "films", "menisci", "cluster", "figures")
+SLOW = ("adhesion", "head-disk", "hosts", "films", "menisci", "cluster", "figures", "fit")
 
 
 def with_blocks(language):

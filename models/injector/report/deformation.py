@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from attrs import evolve
 
 from ....errors import ConvergenceError, InfeasibleError, PlanError
+from ....lubrication.elastohydrodynamic.motion import SmoothGap
 from ....scene.interface import Body
 from ....scene.loading import ImposedForce
 from ....scene.materials import Material
@@ -54,10 +55,16 @@ def deformation(scene: InjectorScene, force: float) -> Deformation:
     Raises
     ------
     PlanError, InfeasibleError, ConvergenceError
-        If the engine of deforming bodies cannot have this film.
+        If the engine of deforming bodies cannot have this film, or needs a map for it.
     """
     soft, rigid = _films(scene, force)
     made = plan_deforming(soft)
+    if not isinstance(made.film, SmoothGap):
+        # A report takes a second; a film on a map half a minute.
+        raise PlanError(
+            "faces that are not round are solved on a map, some 30 s: simulate the film of "
+            "`scene.separation` with ElasticBodies"
+        )
     found = pull_apart(made).numbers["release_time"]
     stiff = simulate(plan(rigid)).scalars()["release_time"][0]
     return Deformation(made.numbers.beta, found, stiff)
