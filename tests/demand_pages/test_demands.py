@@ -143,11 +143,10 @@ def test_a_digit_is_the_slope_of_the_logarithms():
 @pytest.mark.parametrize(
     "name",
     [
-        "releases",
         "compliances",
         *(
             pytest.param(name, marks=pytest.mark.slow)
-            for name in ("bridge-force", "slip", "history", "lines", "waves")
+            for name in ("releases", "bridge-force", "slip", "history", "lines", "waves")
         ),
     ],
 )

@@ -28,6 +28,7 @@ def test_contactkit_agrees_with_others(name):
     assert not wrong, "\n".join(wrong)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 def test_what_disagrees_disagrees_as_stated():
     module = load(folder() / "measured" / "measured_bridges.py").module
