@@ -156,7 +156,8 @@ def places_of(tables):
     start = {port.name: port.start for port in PORTS}
     grid = tables.grid
     whole = contents_of("stiction-mass", PORTS[:1], start, tables).numbers()
-    begin = len(whole) - 1 - len(grid.numbers())  # there are no faces behind it
+    # Behind it there are neither faces nor a film of deforming bodies.
+    begin = len(whole) - 2 - len(grid.numbers())
     assert whole[begin : begin + 1] == [grid.rtol]
     n, m, lines = len(grid.cells.area), len(grid.sides.one), len(grid.onset.place)
     cells = begin + 2 + 1 + 2 * lines
