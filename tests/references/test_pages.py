@@ -14,7 +14,13 @@ QUICK = (
     "sphere_adhesion",
     "film_forces",
 )
-SLOW = ("contact_square", "rough_area", "rupture_work", "cold_oil")  # up to ten seconds each
+SLOW = (
+    "contact_square",
+    "rough_area",
+    "rupture_work",
+    "cold_oil",
+    "capillary_rough",
+)  # up to ten seconds each
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ rupture_work      Work of rupture with and without evaporation: de Boer.
 measured_bridges  Bridges measured by Pitois, which are not met, and why.
 film_forces       Films: Stefan, Reynolds, Brenner, Goldman.
 film_moduli       Film between bodies that deform, vibrating: Leroy and Charlaix.
+capillary_rough   Rough solids pulled together by condensed water: Persson.
 soft_pull         Soft spheres pulled off a film: Davis, Serayssol and Hinch.
 rough_wet_pull    A rough soft sphere pressed on a film and pulled off it.
 cold_oil          Walther's law for a cold oil, and what it does to the injector.
