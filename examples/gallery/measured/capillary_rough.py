@@ -7,6 +7,7 @@ import warnings
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import erf, ndtr
 
 import contactkit as ck
@@ -168,20 +169,20 @@ def draw(data: Data) -> plot.Figure:
 
 
 def check(data: Data) -> list[Check]:
-    """Maxima of the contact, and limits of the work."""
-    last = len(MODULI) - 1
-    states = [data[f"states_{i}"].mean(axis=0) for i in range(len(MODULI))]
+    """Maxima of the contact, what statistics have, and limits of the work."""
+    return [*_most_contact(data), *_compared_with_statistics(data), *_limits(data)]
+
+
+def _states(data: Data) -> list[NDArray[np.float64]]:
+    """States of each solid over the height of the liquid, the mean of the seeds."""
+    return [data[f"states_{i}"].mean(axis=0) for i in range(len(MODULI))]
+
+
+def _most_contact(data: Data) -> list[Check]:
+    states = _states(data)
     tops = [_maximum(data[f"heights_{i}"], one[:, 0]) for i, one in enumerate(states)]
+    hardest = [_maximum(data["heights_0"], one[:, 0]) for one in data["states_0"]]
     top = _maximum(data["heights_0"], data["statistics"].mean(axis=0))
-    around = (data["heights_0"] >= 2.0) & (data["heights_0"] <= 5.0)
-    share = (data["statistics"].mean(axis=0) / states[0][:, 0])[around]
-    each = data["states_0"]
-    hardest = [_maximum(data["heights_0"], one[:, 0]) for one in each]
-    normal = ndtr(data["heights_0"] - each[..., 3]) - each[..., 1]
-    soft, flat = data[f"states_{last}"][:, 0], data[f"flat_{last}"]
-    drawn = soft[:, 2] - (1.0 - flat)
-    off, apart = _off_when_filled(data)
-    ends = [float(one[-1, 2]) for one in states]
     return [
         Check(
             "hard solids have most contact at about 3 rms heights: 2.5 to 3.5",
@@ -194,6 +195,25 @@ def check(data: Data) -> list[Check]:
             f"{top:.2f}",
         ),
         Check(
+            "the softer the solids, the lower the liquid of most contact",
+            bool(np.all(np.diff(tops) < 0.0) and tops[-1] < 1.0),
+            ", ".join(f"{x:.2f}" for x in tops),
+        ),
+        Check(
+            "soft solids are then in nearly complete contact",
+            bool(states[-1][0, 0] > 0.95),
+            f"{100 * states[-1][0, 0]:.1f} % of the area",
+        ),
+    ]
+
+
+def _compared_with_statistics(data: Data) -> list[Check]:
+    heights, each = data["heights_0"], data["states_0"]
+    around = (heights >= 2.0) & (heights <= 5.0)
+    share = (data["statistics"].mean(axis=0) / each.mean(axis=0)[:, 0])[around]
+    normal = ndtr(heights - each[..., 3]) - each[..., 1]
+    return [
+        Check(
             "areas by statistics are 13 to 35 % low from 2 to 5 rms heights",
             bool(np.all((share > 0.65) & (share < 0.87))),
             ", ".join(f"{x:.2f}" for x in share),
@@ -203,18 +223,20 @@ def check(data: Data) -> list[Check]:
             bool(np.abs(normal).max() < 0.03),
             f"{np.abs(normal).max():.3f} at most",
         ),
+    ]
+
+
+def _limits(data: Data) -> list[Check]:
+    last = len(MODULI) - 1
+    soft, flat = data[f"states_{last}"][:, 0], data[f"flat_{last}"]
+    drawn = soft[:, 2] - (1.0 - flat)
+    off, apart = _off_when_filled(data)
+    states = _states(data)
+    ends = [float(one[-1, 2]) for one in states]
+    return [
         Check(
-            "the softer the solids, the lower the liquid of most contact",
-            bool(np.all(np.diff(tops) < 0.0) and tops[last] < 1.0),
-            ", ".join(f"{x:.2f}" for x in tops),
-        ),
-        Check(
-            "soft solids are then in nearly complete contact",
-            bool(states[last][0, 0] > 0.95),
-            f"{100 * states[last][0, 0]:.1f} % of the area",
-        ),
-        Check(
-            "and their work is 1 less the energy that flattens all waves, E* q h^2/4, to 0.01",
+            "work of complete contact is 1 less the energy that flattens all waves, E* q h^2/4, to "
+            "0.01",
             bool(np.abs(drawn).max() < 0.01),
             f"{float(soft[:, 2].mean()):.4f} for {1.0 - float(flat.mean()):.4f}",
         ),
