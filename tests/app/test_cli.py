@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from selection import quick
 
 from contactkit.cli import main
 
@@ -213,7 +214,7 @@ HISTORY = (
 )
 
 
-@pytest.mark.parametrize(("effects", "study", "figure", "names"), [SLIP, HISTORY])
+@pytest.mark.parametrize(("effects", "study", "figure", "names"), quick([SLIP, HISTORY], 0))
 def test_a_study_of_an_effect_shows_its_numbers_over_what_varies(
     tmp_path, capsys, monkeypatch, effects, study, figure, names
 ):

@@ -24,7 +24,17 @@ def blocks(page, language):
     return [textwrap.dedent(body) for _, body in found]
 
 
-SLOW = ("adhesion", "head-disk", "hosts", "films", "menisci", "cluster", "figures", "fit")
+SLOW = (
+    "adhesion",
+    "head-disk",
+    "hosts",
+    "films",
+    "menisci",
+    "cluster",
+    "figures",
+    "fit",
+    "gradients",
+)
 
 
 def with_blocks(language):

@@ -18,7 +18,7 @@ from contactkit.fmu.python.build import build
 OK, DISCARD = 0, 2
 ONE = {"platforms": [local()], "compiler": "cc"} if HAS_CC else {}
 needs_compiler = pytest.mark.skipif(not HAS_CC, reason="there is no C compiler")
-KINDS = ["python", pytest.param("native", marks=needs_compiler)]
+KINDS = ["python", pytest.param("native", marks=[needs_compiler, pytest.mark.slow])]
 UNIX = 1.7e9  # [s], whose round-off is 0.24 us
 
 

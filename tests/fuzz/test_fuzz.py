@@ -73,6 +73,7 @@ PLAIN = st.recursive(
 )
 
 
+@pytest.mark.slow
 @given(PLAIN, st.randoms(use_true_random=False))
 def test_any_tables_become_a_scene_or_are_refused(value, dice):
     film = ck.Interface(

@@ -93,6 +93,7 @@ def test_a_page_has_its_files(page, tmp_path, capsys):
     assert "(squares.md)" in (out / "index.md").read_text()
 
 
+@pytest.mark.slow
 def test_data_are_kept_until_their_code_changes(page, tmp_path):
     out = tmp_path / "out"
     gallery(page, out)

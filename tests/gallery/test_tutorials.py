@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 SHOWN = ROOT / "docs" / "tutorials"
-FAST = ("humid-sphere", "own-effect", "own-ode")
+FAST = ("humid-sphere", "own-effect")
 MAKE = "run python docs/scripts/tutorials"
 NUMBER = re.compile(r"[-+]?\d+\.?\d*(?:e[-+]?\d+)?")
 PRINTED = re.compile(r"^```text\n(.*?)^```", re.MULTILINE | re.DOTALL)

@@ -95,6 +95,7 @@ def test_the_disk_is_the_one_of_table_2_1():
     }
 
 
+@pytest.mark.slow
 def test_the_disk_presses_as_it_did():
     """Golden numbers on a grid just fine enough for its roughness."""
     opened = open_scene("head-disk")

@@ -12,6 +12,9 @@ import pytest
 import contactkit as ck
 from contactkit.commands.group import contactkit
 
+# Rules of the house, as lint is: 30 s of `make test`.
+pytestmark = pytest.mark.slow
+
 pytest.importorskip("pythonfmu")  # the tables of ports are made from the slaves
 
 ROOT = Path(__file__).parents[2]

@@ -44,6 +44,9 @@ from contactkit.separation.effects.base import (
 )
 from contactkit.separation.sliding.effects import SlidingForce
 
+# Rules of the house, as lint is: 30 s of `make test`.
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 SOURCES = ("contactkit", "fmu", "models", "examples")
 MOST_LINES_OF_A_FUNCTION = 60  # as the formatter lays them out

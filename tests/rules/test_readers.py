@@ -11,6 +11,9 @@ from sources import tree
 
 from contactkit.reading.limits import LIMITS
 
+# Rules of the house, as lint is: 30 s of `make test`.
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 SECURITY = (ROOT / "SECURITY.md").read_text(encoding="utf-8")
 

@@ -13,6 +13,9 @@ from pathlib import Path
 
 import pytest
 
+# Rules of the house, as lint is: 30 s of `make test`.
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 
 # What is searched for (names are split at underscores), and the term to use in its place. "Arc"

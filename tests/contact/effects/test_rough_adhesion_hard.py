@@ -99,7 +99,7 @@ def test_strong_adhesion_closes_the_gap(periodic, loading):
 
 @pytest.mark.parametrize(
     ("ratio", "periodic"),
-    quick([(1e-3, False), (1e-3, True), (1e3, False), (1e3, True)], 0, 3),
+    quick([(1e-3, False), (1e-3, True), (1e3, False), (1e3, True)], 0),
 )
 def test_layers_of_any_stiffness(ratio, periodic):
     film = ck.Material(young_modulus=ratio * 1e9, poisson_ratio=0.3)

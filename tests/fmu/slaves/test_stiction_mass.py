@@ -226,6 +226,7 @@ PARAMETERS = [port for port in PORTS if port.causality == "parameter" and port.k
 INPUTS = [port for port in PORTS if port.causality == "input"]
 
 
+@pytest.mark.slow
 def test_bad_parameters_are_refused_with_a_message_and_the_instance_lives_on(host):
     wrong = []
     for port in PARAMETERS:

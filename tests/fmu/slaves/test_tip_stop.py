@@ -28,7 +28,10 @@ from contactkit.models.micromirror.tip_impact import TipStop, rebound_work
 from contactkit.reading.references import resolved_references
 
 # A summit that is plastic all over is meant.
-pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning"),
+]
 
 MASS, STIFFNESS = 4e-16, 1.0
 
