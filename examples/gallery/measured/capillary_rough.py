@@ -36,7 +36,7 @@ PAGE = Page(
     " those of the source are not in the abstract. DugdaleAttraction.from_meniscus: every gap "
     "below d_K is wet. No outer load; solids come from far apart. Heights d_K below "
     "half the rms height need finer grids and are left out. Statistics of a rough surface: p = "
-    "2 gamma cos(theta)/d_K times the share of a normal distribution of gaps that is wet, the "
+    "2 gamma cos(theta)/d_K times the fraction of a normal distribution of gaps that is wet, the "
     "mean gap over p from dry contact, area by the law of the page rough-area.",
     grid="192 x 192 pixels, periodic; 128 x 128 for the softest",
     seeds="1 to 3",
