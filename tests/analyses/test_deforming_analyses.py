@@ -73,7 +73,7 @@ def test_moduli_meet_their_stiff_limits():
     assert curve.loss_modulus == pytest.approx(curve.stiff_loss, rel=1e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 def test_stiction_grows_with_the_time_of_rest():
     loading = ck.PressAndPull(press=1e-3, rest=1.0, speed=1e-4, initial_gap=5e-8, final_gap=5e-7)

@@ -76,7 +76,7 @@ def test_the_rough_disk_is_refused_by_name(disk):
     assert landing_bump(disk).interface.lower.solid.name == "Ni-P"
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 def test_a_landing_bump_sticks_once_it_has_drained(disk):
     """The numbers of docs/head-disk.md, and the order of 2 pi R gc = 4.57 uN."""

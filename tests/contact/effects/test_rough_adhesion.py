@@ -261,7 +261,7 @@ def test_branches_of_an_isolated_map_do_not_depend_on_the_steps():
         assert np.abs(one.load - other.load[::2]).max() <= 1e-5 * scale
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_branches_of_a_periodic_map_do_not_depend_on_the_steps():
     """Five levels or nine: without the way by the middle of a step the separation is 15 % off."""
     law = ck.ExponentialAttraction(work_of_adhesion=WORK, range=0.7e-9)
