@@ -12,7 +12,7 @@ from ..scene.loading import PressAndPull
 from ..separation.deforming.limits import rigid_limit, static_limit
 from ..separation.deforming.result import MAPS, DeformingResult, Maps
 from .axis_units import axis_label, readable
-from .style import Axes, ListedColormap, Patch, figure, legend
+from .style import Axes, ListedColormap, Patch, figure, legend, save_animation
 
 __all__ = [
     "animate",
@@ -224,11 +224,6 @@ def animate(result: DeformingResult, path: str | Path, *, rate: int = 8) -> Path
     DescriptionError
         If the file is no GIF.
     """
-    from matplotlib.animation import FuncAnimation, PillowWriter
-
-    path = Path(path)
-    if path.suffix.lower() != ".gif":
-        raise DescriptionError("animate.path", str(path), "end in .gif")
     made, (left, right) = figure(1, 2, size=(8.2, 3.9))
     times = [float(time) for time in result.fields["time"]]
     force, force_name = readable("N", result["pull"])
@@ -253,10 +248,7 @@ def animate(result: DeformingResult, path: str | Path, *, rate: int = 8) -> Path
         dot.set_data(gap[so_far][-1:], pull[so_far][-1:])
         return [image, line, dot]
 
-    film = FuncAnimation(made, draw, frames=len(times), init_func=lambda: [image, line, dot])
-    path.parent.mkdir(parents=True, exist_ok=True)
-    film.save(path, writer=PillowWriter(fps=rate), dpi=72)
-    return path
+    return save_animation(made, path, draw, len(times), rate, first=[image, line, dot])
 
 
 def telling_time(result: DeformingResult) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import DescriptionError
 from ..lubrication.reynolds.film import GridFilmState
 from .axis_units import axis_unit, scaled
-from .style import COLORS, Axes, figure, legend
+from .style import COLORS, Axes, figure, legend, save_animation
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -183,13 +183,8 @@ def animate(
     DescriptionError
         If there are fewer than two states, or the file is no GIF.
     """
-    from matplotlib.animation import FuncAnimation, PillowWriter
-
-    path = Path(path)
     if len(states) < 2:
         raise DescriptionError("animate.states", len(states), "be two or more states")
-    if path.suffix.lower() != ".gif":
-        raise DescriptionError("animate.path", str(path), "end in .gif")
     made, axes = figure(1, 3, size=(10.5, 3.3))
     limits = _pressure_limits(states)
     time = [s.time * 1e3 for s in states]
@@ -215,10 +210,7 @@ def animate(
     scales = [ax.images[0] for ax in axes[:2]]
     for ax, image, label in zip(axes, scales, ("[bar]", "[-]"), strict=False):
         made.colorbar(image, ax=ax, shrink=0.8).set_label(label)
-    film = FuncAnimation(made, draw, frames=len(states), init_func=lambda: shown)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    film.save(path, writer=PillowWriter(fps=rate), dpi=72)
-    return path
+    return save_animation(made, path, draw, len(states), rate, first=shown)
 
 
 def _instant(time: float, gap: float) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +46,7 @@ __all__ = [
     "note",
     "plain_log",
     "save",
+    "save_animation",
     "series",
     "shared_legend",
     "title",
@@ -163,6 +164,48 @@ def save(made: Figure, path: str | Path, **more: Any) -> Path:
     _set_in_print(made)
     with write_whole(path) as temporary, mpl.rc_context(STYLE):
         made.savefig(temporary, format=kind, **({"metadata": _UNDATED[kind]} | more))
+    return path
+
+
+def save_animation(
+    made: Figure,
+    path: str | Path,
+    draw: Callable[[int], Sequence[Any]],
+    pictures: int,
+    rate: float,
+    *,
+    first: Sequence[Any],
+) -> Path:
+    """Write an animation as GIF, completely or not at all.
+
+    Parameters
+    ----------
+    made : Figure
+        The figure.
+    path : str or Path
+        File ending in ``.gif``.
+    draw : callable
+        Draws a picture by its number, and returns what it drew.
+    pictures : int
+        How many there are.
+    rate : float
+        Pictures a second.
+    first : sequence
+        What the figure shows already.
+
+    Raises
+    ------
+    DescriptionError
+        If the suffix is another one.
+    """
+    from matplotlib.animation import FuncAnimation, PillowWriter
+
+    path = Path(path)
+    if path.suffix.lower() != ".gif":
+        raise DescriptionError("animate.path", str(path), "end in .gif")
+    film = FuncAnimation(made, draw, frames=pictures, init_func=lambda: first)
+    with write_whole(path) as temporary:
+        film.save(temporary, writer=PillowWriter(fps=rate), dpi=72)
     return path
 
 
