@@ -19,7 +19,7 @@ from contactkit.files.scenes import structure
 from contactkit.fmu.slaves.stiction_mass import mass_values
 from contactkit.models.injector.delays import delay, dry_delay
 from contactkit.models.injector.report.cosimulation import cosimulate_cases
-from contactkit.models.injector.report.cycles import cycles, held_pressure, run_error
+from contactkit.models.injector.report.cycles import cycles, held_pressure, largest_pull, run_error
 from contactkit.models.injector.report.run import report
 from contactkit.models.injector.scene import Study
 from contactkit.separation.effects.base import LimitKind
@@ -164,7 +164,7 @@ def test_from_the_pressure_at_which_the_cavity_holds_the_pull_the_answer_is_anot
     """Area times the drop in the cavity against the pull: statics, whatever the oil."""
     scene = device.scene
     face, vapour = math.pi * 3.175e-3**2, 0.0
-    holds = held_pressure(scene, scene.tension_limit)
+    holds = held_pressure(scene, scene.tension_limit, largest_pull(scene))
     assert (holds - vapour) * face == pytest.approx(40.7, rel=0.01)
     low, high = (
         [delay(scene, t, ambient_pressure=p * holds) for t in (253.15, 293.15, 353.15)]

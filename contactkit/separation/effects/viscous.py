@@ -471,6 +471,11 @@ class TensionLimit(FilmLimit):
         return min(self.ambient_pressure, self.tension)
 
     @property
+    def pressure_in_cavity(self) -> float:
+        """Pressure in a cavity [Pa], absolute; below zero a tension."""
+        return self.ambient_pressure - self.cavity_drop
+
+    @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
         if self.cavity == "mass-conserving":

@@ -83,13 +83,12 @@ def largest_pull(scene: InjectorScene) -> float:
     return float(pull.max())
 
 
-def held_pressure(scene: InjectorScene, limit: TensionLimit) -> float:
-    """Pressure around the face [Pa], absolute, from which on a cavity holds the largest pull.
+def held_pressure(scene: InjectorScene, limit: TensionLimit, pull: float) -> float:
+    """Pressure around the face [Pa], absolute, from which on a cavity holds a pull [N].
 
     A cavity over nearly all of the face holds area times its drop below the pressure around.
     """
-    in_cavity = limit.ambient_pressure - limit.cavity_drop
-    return largest_pull(scene) / (math.pi * scene.interface.rim_radius**2) + in_cavity
+    return pull / (math.pi * scene.interface.rim_radius**2) + limit.pressure_in_cavity
 
 
 def run_error(run: InjectorRun, found: Sequence[Cycle]) -> float:

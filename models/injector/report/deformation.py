@@ -79,8 +79,7 @@ def _films(scene: InjectorScene, force: float) -> tuple[SeparationScene, Separat
         if not isinstance(one, TensionLimit)
     ]
     if limit is not None:
-        drop = limit.cavity_drop
-        held = limit.ambient_pressure - drop
+        drop, held = limit.cavity_drop, limit.pressure_in_cavity
         film.append(evolve(limit, strength=drop, cavity_pressure=held))
     pull = ImposedForce(
         force=force, mass=given.mass, initial_gap=given.initial_gap, final_gap=given.final_gap

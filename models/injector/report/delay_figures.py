@@ -15,7 +15,7 @@ from ....units import bar, celsius
 from ..delays import delay
 from ..scene import InjectorScene
 from .cosimulation import InjectorRun
-from .cycles import cycles, held_pressure, largest_pull
+from .cycles import cycles, held_pressure
 
 __all__ = ["delays_over_pressure", "delays_over_strength", "delays_over_temperature"]
 
@@ -113,14 +113,16 @@ def _finish(ax: Any, scene: InjectorScene, dry: float) -> None:
     plot.plain_log(ax.yaxis)
 
 
-def delays_over_strength(scene: InjectorScene, limit: TensionLimit, out: Path, dry: float) -> Path:
+def delays_over_strength(
+    scene: InjectorScene, limit: TensionLimit, out: Path, dry: float, pull: float
+) -> Path:
     """Release delay over the strength of the oil, for several pressures in the cavity."""
     span = scene.study.temperatures
     shown = sorted({min(span), max(span)})
     n = len(shown)
     made, axes = plot.figure(1, n, (5.2 * n, 5.0), sharey=True, squeeze=False)
     area = math.pi * scene.interface.rim_radius**2
-    whole = 2.0 * largest_pull(scene) / area / bar
+    whole = 2.0 * pull / area / bar
     for ax, temperature in zip(axes[0], shown, strict=True):
         for curve in (*_held(scene), _SUSTAINING):
             strengths = _strengths(scene, limit.ambient_pressure - curve.oil["cavity_pressure"])
@@ -130,17 +132,7 @@ def delays_over_strength(scene: InjectorScene, limit: TensionLimit, out: Path, d
             marked = curve._replace(style=curve.style | {"marker": "."})
             _draw(ax, scene, marked, [s / bar for s in strengths], delays)
         _finish(ax, scene, dry)
-        ax.axvline(whole, color="0.5", lw=0.8, ls="-.")
-        ax.annotate(
-            "beyond, no pull on a\nresting spool cavitates",
-            (whole, 0.6),
-            xytext=(-4, 0),
-            textcoords="offset points",
-            ha="right",
-            fontsize=8,
-            xycoords=("data", "axes fraction"),
-            color="0.4",
-        )
+        _threshold(ax, whole, "beyond, no pull on a\nresting spool cavitates")
         ax.set_xlabel("strength of the oil, below ambient pressure [bar]")
         plot.title(ax, f"oil at {temperature - celsius(0.0):+.0f} degC")
     for ax in axes[0][1:]:
@@ -150,7 +142,9 @@ def delays_over_strength(scene: InjectorScene, limit: TensionLimit, out: Path, d
     return plot.save(made, out / "delay-against-strength")
 
 
-def delays_over_pressure(scene: InjectorScene, limit: TensionLimit, out: Path, dry: float) -> Path:
+def delays_over_pressure(
+    scene: InjectorScene, limit: TensionLimit, out: Path, dry: float, pull: float
+) -> Path:
     """Release delay over the pressure around the face, for each temperature of the study."""
     made, ax = plot.figure(size=(9.0, 5.0))
     around = sorted(scene.study.ambient_pressures)
@@ -160,28 +154,33 @@ def delays_over_pressure(scene: InjectorScene, limit: TensionLimit, out: Path, d
         curve = _Curve(label, {}, {"color": color, "marker": "."})
         _draw(ax, scene, curve, [p / bar for p in around], delays)
     _finish(ax, scene, dry)
-    held = held_pressure(scene, limit) / bar
-    ax.axvline(held, color="0.5", lw=0.8, ls="-.")
-    ax.annotate(
-        "the cavity holds\nthe whole pull",
-        (held, 0.7),
-        xytext=(-4, 0),
-        textcoords="offset points",
-        ha="right",
-        fontsize=9,
-        xycoords=("data", "axes fraction"),
-        color="0.4",
-    )
+    held = held_pressure(scene, limit, pull) / bar
+    _threshold(ax, held, "the cavity holds\nthe whole pull")
     ax.axvline(limit.ambient_pressure / bar, color="0.5", lw=0.8, ls=":")
     ax.set_xlabel("pressure of the oil around the face, absolute [bar]")
     lowest = (limit.ambient_pressure - limit.tension) / bar
     plot.title(
         ax,
         f"release delay over the pressure around the face (dotted: the scene's)\noil that "
-        f"cavitates at {lowest:.3g} bar, cavity at {(limit.cavity_pressure or 0.0) / bar:.3g} bar",
+        f"cavitates at {lowest:.3g} bar, cavity at {limit.pressure_in_cavity / bar:.3g} bar",
     )
     plot.legend(ax, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return plot.save(made, out / "delay-against-pressure")
+
+
+def _threshold(ax: Any, x: float, text: str) -> None:
+    """Mark a place on the axis, with words to its left."""
+    ax.axvline(x, color="0.5", lw=0.8, ls="-.")
+    ax.annotate(
+        text,
+        (x, 0.6),
+        xytext=(-4, 0),
+        textcoords="offset points",
+        ha="right",
+        fontsize=8,
+        xycoords=("data", "axes fraction"),
+        color="0.4",
+    )
 
 
 def _strengths(scene: InjectorScene, drop: float) -> list[float]:

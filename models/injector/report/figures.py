@@ -23,18 +23,18 @@ _GIVEN, _SUSTAINED, _PULL = "#0072b2", "#d55e00", "#009e73"
 
 
 def draw(
-    scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float
+    scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float, pull: float
 ) -> tuple[Path, ...]:
-    """Draw every figure into a folder."""
+    """Draw every figure into a folder; with the dry delay [s] and the largest pull [N]."""
     files = [_balance(scene, run, out) for run in runs if not run.sustained]
     files += [_zoom(scene, runs, out), _cycle(scene, runs, out)]
     files.append(delays_over_temperature(scene, runs, out, dry))
     limit = scene.tension_limit
     if limit is not None and limit.cavity == "mass-conserving":
         if scene.study.ambient_pressures:
-            files.append(delays_over_pressure(scene, limit, out, dry))
+            files.append(delays_over_pressure(scene, limit, out, dry, pull))
         if scene.study.strengths:
-            files.append(delays_over_strength(scene, limit, out, dry))
+            files.append(delays_over_strength(scene, limit, out, dry, pull))
     return tuple(files)
 
 
@@ -50,7 +50,7 @@ def _oil(scene: InjectorScene, run: InjectorRun) -> str:
         return "oil that never cavitates"
     if run.sustained:
         return f"goes on to sustain {limit.tension / bar:g} bar once cavitated"
-    held = (limit.ambient_pressure - limit.cavity_drop) / bar
+    held = limit.pressure_in_cavity / bar
     return f"cavitates at {limit.tension / bar:g} bar, cavity at {held:.3g} bar"
 
 

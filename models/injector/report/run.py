@@ -48,7 +48,7 @@ def _oil_text(run: InjectorRun) -> tuple[str, str]:
     limit = run.plan.scene.effect(TensionLimit)
     if limit is None or math.isinf(limit.tension):
         return "never", "-"
-    held = f"{(limit.ambient_pressure - limit.cavity_drop) / bar:.3g} bar"
+    held = f"{limit.pressure_in_cavity / bar:.3g} bar"
     return f"{limit.tension / bar:g} bar", held
 
 
@@ -92,7 +92,7 @@ def fmu_start(scene: InjectorScene) -> FmuStart:
 
 def report(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path | None) -> Report:
     """Turn the runs into a table and, with a folder, into signals and figures."""
-    dry = dry_delay(scene)
+    dry, pull = dry_delay(scene), largest_pull(scene)
     lines = [
         f"{scene.name}: {scene.valve.profile.cycles} firing cycles, FMUs valve-drive and "
         f"stiction-mass, communication step {scene.study.communication_step * 1e6:g} us",
@@ -111,14 +111,14 @@ def report(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path | None) 
         spread.append(_spread(run, [c.delay for c in found], scene))
         scalars |= _scalars(run, found, dry)
     impacts, numbers = end_stop_numbers(scene, runs, [run.name for run in runs])
-    softened, changes = deformation_numbers(scene, largest_pull(scene))
-    lines += [*spread, *_what_decides(scene, runs), *softened, *impacts, *_validity(runs)]
+    softened, changes = deformation_numbers(scene, pull)
+    lines += [*spread, *_what_decides(scene, runs, pull), *softened, *impacts, *_validity(runs)]
     numbers |= changes
     text = "\n".join(lines)
     if out is None:
         return Report(scalars | numbers, text)
     write = partial(_write, scene, runs, out)
-    return Report(scalars | numbers, text, write, partial(_draw, scene, runs, out, dry))
+    return Report(scalars | numbers, text, write, partial(_draw, scene, runs, out, dry, pull))
 
 
 def _row(run: InjectorRun, found: Sequence[Cycle], dry: float) -> str:
@@ -163,13 +163,12 @@ def _spread(run: InjectorRun, delays: Sequence[float], scene: InjectorScene) -> 
     return f"{text}; at the end {rests * 1e6:.2f} um off the end cap"
 
 
-def _what_decides(scene: InjectorScene, runs: Sequence[InjectorRun]) -> list[str]:
+def _what_decides(scene: InjectorScene, runs: Sequence[InjectorRun], pull: float) -> list[str]:
     """Say which property of the oil decides, and what an oil that never cavitates would do."""
     limit = scene.tension_limit
     if limit is None or limit.cavity != "mass-conserving" or math.isinf(limit.tension):
         return []
-    area, pull = math.pi * scene.interface.rim_radius**2, largest_pull(scene)
-    holds = held_pressure(scene, limit)
+    area, holds = math.pi * scene.interface.rim_radius**2, held_pressure(scene, limit, pull)
     pressed = [delay(scene, t, ambient_pressure=holds) for t in scene.study.temperatures]
     above = ", ".join("never" if math.isnan(d) else f"{d * 1e3:.3f} ms" for d in pressed)
     never = [delay(scene, t, cavitates=False) for t in scene.study.temperatures]
@@ -232,8 +231,8 @@ def _write(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> tupl
 
 
 def _draw(
-    scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float
+    scene: InjectorScene, runs: Sequence[InjectorRun], out: Path, dry: float, pull: float
 ) -> tuple[Path, ...]:
     from .figures import draw
 
-    return draw(scene, runs, out, dry)
+    return draw(scene, runs, out, dry, pull)
