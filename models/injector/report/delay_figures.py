@@ -132,7 +132,7 @@ def delays_over_strength(
             marked = curve._replace(style=curve.style | {"marker": "."})
             _draw(ax, scene, marked, [s / bar for s in strengths], delays)
         _finish(ax, scene, dry)
-        _threshold(ax, whole, "beyond, no pull on a\nresting spool cavitates")
+        _threshold(ax, whole, "beyond, no pull on a\nresting spool cavitates", 0.6)
         ax.set_xlabel("strength of the oil, below ambient pressure [bar]")
         plot.title(ax, f"oil at {temperature - celsius(0.0):+.0f} degC")
     for ax in axes[0][1:]:
@@ -155,7 +155,7 @@ def delays_over_pressure(
         _draw(ax, scene, curve, [p / bar for p in around], delays)
     _finish(ax, scene, dry)
     held = held_pressure(scene, limit, pull) / bar
-    _threshold(ax, held, "the cavity holds\nthe whole pull")
+    _threshold(ax, held, "the cavity holds\nthe whole pull", 0.7)
     ax.axvline(limit.ambient_pressure / bar, color="0.5", lw=0.8, ls=":")
     ax.set_xlabel("pressure of the oil around the face, absolute [bar]")
     lowest = (limit.ambient_pressure - limit.tension) / bar
@@ -168,12 +168,12 @@ def delays_over_pressure(
     return plot.save(made, out / "delay-against-pressure")
 
 
-def _threshold(ax: Any, x: float, text: str) -> None:
-    """Mark a place on the axis, with words to its left."""
+def _threshold(ax: Any, x: float, text: str, height: float) -> None:
+    """Mark a place on the axis, with words to its left at a part of the height."""
     ax.axvline(x, color="0.5", lw=0.8, ls="-.")
     ax.annotate(
         text,
-        (x, 0.6),
+        (x, height),
         xytext=(-4, 0),
         textcoords="offset points",
         ha="right",
