@@ -272,7 +272,7 @@ class FineRoughness(Described):
 
 
 def one_grid(
-    own: Collection[OwnGrid], field: str, of: str = "height maps", cure: str | None = None
+    own: Collection[OwnGrid], field: str, of: str = "height maps", cure: str = ""
 ) -> OwnGrid | None:
     """Grid that height maps share; None where there is no map, and any grid does.
 
