@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
+from ..scene.interface import own_grid
 from ..scene.scenes import ContactScene
 from ..scene.surfaces import realise, union_of
 from ..scene.window import Axis, Grid
@@ -29,24 +30,11 @@ def grid_of(scene: ContactScene, accuracy: Accuracy | None = None) -> Grid:
     """
     accuracy = accuracy or Accuracy.standard
     window = scene.window
-    brought = set().union(*(body.surface.own_grids for body in scene.interface.bodies))
-    if len(brought) > 1:
-        raise DescriptionError(
-            "Interface",
-            sorted(brought),
-            "have surfaces of one grid, (shape, pixel size [m])",
-            hint="resample one of the maps",
-        )
-    if brought:
-        shape, pixel = brought.pop()
+    own = own_grid(scene.interface, accuracy)
+    if own is not None:
+        shape, pixel = own
         _agree(window.width, shape[1] * pixel[1], "Window.width")
         _agree(window.height, shape[0] * pixel[0], "Window.height")
-        if accuracy.grid is not None and accuracy.shape != shape:
-            raise DescriptionError(
-                "Accuracy.grid",
-                accuracy.grid,
-                f"be that of the height map, {shape}, or left out",
-            )
         return Grid(shape, pixel, *_edges(scene))
     if window.width is None:
         raise DescriptionError(

@@ -11,18 +11,21 @@ of the liquid is positive when it resists separation.
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from attrs import field, frozen
 
-from ..errors import PlanError
+from ..errors import DescriptionError, PlanError
 from ..validators import Described, optional, part
 from .materials import Solid, Stack
 from .meniscus import Meniscus
-from .surfaces import Flat, Surface
+from .surfaces import Flat, OwnGrid, Surface, one_grid
 from .topography import as_surface
 
-__all__ = ["Body", "Interface"]
+if TYPE_CHECKING:
+    from ..accuracy import Accuracy
+
+__all__ = ["Body", "Interface", "own_grid"]
 
 
 @frozen(kw_only=True)
@@ -140,3 +143,20 @@ def _curvature(surface: Surface) -> float:
     if surface.curvature is None:
         raise PlanError(f"{type(surface).__name__} has no round apex; give a Flat or a Sphere")
     return surface.curvature
+
+
+def own_grid(interface: Interface, accuracy: Accuracy) -> OwnGrid | None:
+    """Grid of the height maps of the bodies; None if there is no map.
+
+    Raises
+    ------
+    DescriptionError
+        If two surfaces bring different grids, or `Accuracy.grid` is another.
+    """
+    brought = frozenset[OwnGrid]().union(*(body.surface.own_grids for body in interface.bodies))
+    own = one_grid(brought, "Interface", "surfaces", "resample one of the maps")
+    if own is not None and accuracy.grid is not None and accuracy.shape != own[0]:
+        raise DescriptionError(
+            "Accuracy.grid", accuracy.grid, f"be that of the height map, {own[0]}, or left out"
+        )
+    return own

@@ -6,7 +6,7 @@ A height [m] is measured out of its own body: a peak is positive.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from attrs import Attribute, field, frozen
@@ -45,6 +45,7 @@ __all__ = [
     "Sphere",
     "Surface",
     "Wave",
+    "one_grid",
     "realise",
     "union_of",
     "whole_heights",
@@ -260,21 +261,39 @@ class FineRoughness(Described):
         if not own and self.width is None:
             expected = "be given where no surface is measured"
             raise DescriptionError("FineRoughness.width", None, expected, unit="m")
-        grid = _one_grid(own, "FineRoughness.surface")
-        if grid is None:
+        brought = one_grid(own, "FineRoughness.surface")
+        if brought is not None:
+            grid = Grid(*brought, True)
+        else:
             side = (self.width or 0.0) / self.pixels
             grid = Grid((self.pixels, self.pixels), (side, side), True)
         heights = whole_heights(self.surface, grid, "FineRoughness.pixels")
         return heights - heights.mean(), grid.pixel_size
 
 
-def _one_grid(own: frozenset[OwnGrid], field: str) -> Grid | None:
-    """Grid of the height maps of a surface; None of a recipe, which takes any."""
+def one_grid(
+    own: Collection[OwnGrid], field: str, of: str = "height maps", cure: str = ""
+) -> OwnGrid | None:
+    """Grid that height maps share; None where there is no map, and any grid does.
+
+    Parameters
+    ----------
+    own : collection of OwnGrid
+        Grids of the maps.
+    field : str
+        What has the maps, for a message.
+    of, cure : str
+        What should be of one grid, and how it could be.
+
+    Raises
+    ------
+    DescriptionError
+        If the grids differ.
+    """
     if len(own) > 1:
-        raise DescriptionError(
-            field, sorted(own), "have height maps of one grid, (shape, pixel size [m])"
-        )
-    return next((Grid(shape, pixel, True) for shape, pixel in own), None)
+        expected = f"have {of} of one grid, (shape, pixel size [m])"
+        raise DescriptionError(field, sorted(own), expected, hint=cure)
+    return next(iter(own), None)
 
 
 def whole_heights(surface: Surface, grid: Grid, finer: str) -> Map:

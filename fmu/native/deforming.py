@@ -216,31 +216,23 @@ def _has_spring(made: DeformingPlan, mass: float | None) -> bool:
     if any(stack.layers for stack in made.scene.interface.stacks):
         return False
     return (
-        mass is None or _damping(made) <= LIGHTEST * math.sqrt(_stiffness(made) * mass) * _ROUNDED
+        mass is None
+        or made.rigid_damping <= LIGHTEST * math.sqrt(_stiffness(made) * mass) * _ROUNDED
     )
 
 
 def _unit_force(made: DeformingPlan) -> float:
-    """Force of a film at beta = 1 [N]: 6 pi E* w h under a sphere, 1.5 pi E* w h under a flat."""
-    film = made.film
-    part = 1.5 if math.isinf(film.radius) else 6.0
-    return part * math.pi * made.modulus * film.width * film.gap
+    """Force of a film between rigid bodies at the speed at which beta = 1 [N]."""
+    return made.rigid_force / made.numbers.beta
 
 
 def _stiffness(made: DeformingPlan) -> float:
     return series_stiffness(made.film.radius, made.film.width, made.modulus)
 
 
-def _damping(made: DeformingPlan) -> float:
-    """Damping of rigid bodies at the start [N.s/m]."""
-    film = made.film
-    part = 1.5 if math.isinf(film.radius) else 6.0
-    return part * math.pi * film.viscosity * film.width**4 / film.gap**3
-
-
 def _as_series(made: DeformingPlan, beta: float) -> Exactness:
     error, stiffness = series_error(beta), quantity_text(_stiffness(made), "N/m")
-    answer = quantity_text(_damping(made) / _stiffness(made), "s")
+    answer = quantity_text(made.rigid_damping / _stiffness(made), "s")
     text = (
         f"rigid bodies in series with a spring of {stiffness}, for beta = {beta:.2g}: the largest "
         f"force of a pull is right to {error:.2g}, the force to 5 % of it while it builds up; "

@@ -24,7 +24,6 @@ __all__ = [
     "SOLVERS",
     "approximate_factors",
     "choose_solver",
-    "factorised",
     "minimum_degree",
     "solve_sparse",
 ]
@@ -104,42 +103,18 @@ def solve_sparse(matrix: Any, right: Array, solver: str, is_symmetric: bool) -> 
     """
     if solver == "amg" and is_symmetric:
         return _multigrid(matrix, right)
-    found = factorised(matrix, solver, is_symmetric)(right)
-    if not np.isfinite(found).all():
-        raise ConvergenceError("the film has no unique pressure: its matrix is singular")
-    return found
-
-
-def factorised(matrix: Any, solver: str, is_symmetric: bool) -> Callable[[Array], Array]:
-    """Factors of a sparse matrix, as a function that solves for a right-hand side.
-
-    Parameters
-    ----------
-    matrix, solver, is_symmetric
-        As of `solve_sparse`; "amg" has no factors, SuperLU gives them.
-
-    Raises
-    ------
-    ConvergenceError
-        If the matrix is singular.
-
-    Examples
-    --------
-    >>> from scipy.sparse import csc_array
-    >>> solve = factorised(csc_array([[2.0, -1.0], [-1.0, 2.0]]), "superlu", True)
-    >>> solve(np.array([1.0, 1.0]))
-    array([1., 1.])
-    """
     if solver == "cholmod" and is_symmetric:
         from scipy.sparse import csc_matrix
         from sksparse.cholmod import cholesky
 
-        factor = cholesky(csc_matrix(matrix))
-        return lambda right: np.asarray(factor(right))
-    # Columns are diagonally dominant: conductances, and what walls carry from a cell to others. No
-    # pivots are needed, and the order of a symmetric pattern fills least.
-    factors = _superlu(matrix.tocsc(), "MMD_AT_PLUS_A")
-    return lambda right: np.asarray(factors.solve(right))
+        found = np.asarray(cholesky(csc_matrix(matrix))(right))
+    else:
+        # Columns are diagonally dominant: conductances, and what walls carry from a cell to others.
+        # No pivots are needed, and the order of a symmetric pattern fills least.
+        found = np.asarray(_superlu(matrix.tocsc(), "MMD_AT_PLUS_A").solve(right))
+    if not np.isfinite(found).all():
+        raise ConvergenceError("the film has no unique pressure: its matrix is singular")
+    return found
 
 
 def minimum_degree(matrix: Any) -> NDArray[np.int64]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...capillary import elastic_bridge
 from ...lubrication.elastohydrodynamic.motion import SmoothGap
+from ...lubrication.reynolds.damping import disc_damping, dome_damping
 from ...scene.loading import ImposedSpeed, PressAndPull
 
 if TYPE_CHECKING:
@@ -52,15 +53,10 @@ def rigid_limit(plan: DeformingPlan, start: float, end: float) -> Limit | None:
     least = max(start, film.cutoff, 1e-3 * film.gap)
     if least >= end:
         return None
-    gap = np.geomspace(least, end, _CLOSED)
-    if math.isinf(film.radius):
-        damping = 1.5 * math.pi * film.viscosity * film.rim**4 / gap**3
-    else:
-        # Of a paraboloid up to its rim: Reynolds' equation integrated in closed form.
-        rim = gap + film.rim**2 / (2.0 * film.radius)
-        inner = 1.0 / gap - 1.0 / rim - (rim - gap) / rim**2
-        damping = 6.0 * math.pi * film.viscosity * film.radius**2 * inner
-    return Limit(gap, damping * speed)
+    is_flat = math.isinf(film.radius)
+    law = disc_damping(film.rim) if is_flat else dome_damping(film.rim, film.radius)
+    gaps = np.geomspace(least, end, _CLOSED)
+    return Limit(gaps, np.array([law.force(gap, speed, film.viscosity) for gap in gaps.tolist()]))
 
 
 def _rigid_on_map(film: MapFilm, speed: float, start: float, end: float) -> Limit | None:

@@ -1,19 +1,23 @@
-"""Outcome of a motion of deforming bodies: its numbers, its status, or why it has none."""
+"""Outcome of a motion of deforming bodies: its numbers and its result, or why it has none."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...errors import ConvergenceError
+from ...frozen import FrozenDict
 from ...lubrication.elastohydrodynamic.motion import Motion
 from ...lubrication.elastohydrodynamic.step import StepFailedError
 from ...scene.loading import ImposedSpeed
 from ...units import quantity_text
+from ...validity import ValidityNumber, warn
+from ..curve_result import Work
 from .plan import DeformingPlan
+from .result import DeformingResult
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,7 +26,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["not_followed", "outcome", "outcome_numbers"]
+__all__ = ["finished", "not_followed", "outcome_numbers"]
 
 
 def outcome_numbers(
@@ -97,7 +101,40 @@ def _snap_off(columns: Mapping[str, Array], pulled: float) -> float:
     return 0.5 * float(time[k] + time[k + 1]) if rate[k] > 1.2 * moved[k] else math.nan
 
 
-def outcome(columns: Mapping[str, Array], numbers: Mapping[str, float]) -> tuple[str, str]:
+def finished(
+    plan: DeformingPlan,
+    columns: Mapping[str, Array],
+    sections: Mapping[str, Array],
+    maps: Mapping[str, NDArray[Any]],
+    numbers: Mapping[str, float],
+    validity: tuple[ValidityNumber, ...],
+    work: Work,
+) -> DeformingResult:
+    """Result of a motion; its arrays cannot be written to any more, and its warnings are given.
+
+    Parameters
+    ----------
+    plan : DeformingPlan
+        The plan.
+    columns, sections, maps, numbers, validity, work
+        As in `DeformingResult`.
+    """
+    for one in (*columns.values(), *sections.values(), *maps.values()):
+        one.flags.writeable = False
+    warn(validity, stacklevel=4)  # beyond the run
+    return DeformingResult(
+        plan,
+        *_status(columns, numbers),
+        FrozenDict(columns),
+        FrozenDict(sections),
+        FrozenDict(maps),
+        FrozenDict(numbers),
+        validity,
+        work,
+    )
+
+
+def _status(columns: Mapping[str, Array], numbers: Mapping[str, float]) -> tuple[str, str]:
     """Status of a motion, and the same as a sentence."""
     force = quantity_text(numbers["pull_off_force"], "N")
     more = f"; largest pull {force} after {numbers['pull_off_time']:.6g} s"

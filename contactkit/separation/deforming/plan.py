@@ -148,9 +148,12 @@ class DeformingPlan(ScenePlan):
     @property
     def rigid_force(self) -> float:
         """Force of rigid bodies at the start of the pull, from the initial gap [N]."""
-        film = self.film
-        speed = characteristic_speed(self.scene, film)
-        return speed * _rigid_damping(film)
+        return characteristic_speed(self.scene, self.film) * self.rigid_damping
+
+    @property
+    def rigid_damping(self) -> float:
+        """Damping of rigid bodies at the initial gap, without their roughness [N.s/m]."""
+        return _rigid_damping(self.film)
 
     @property
     def rest_number(self) -> float | None:

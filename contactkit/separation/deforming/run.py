@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...frozen import FrozenDict
 from ...lubrication.elastohydrodynamic.motion import Motion, Profile, SmoothGap, move
 from ...lubrication.elastohydrodynamic.step import StepFailedError
 from ...scene.loading import PressAndPull
-from ...validity import warn
 from ..curve_result import Work
-from .outcome import not_followed, outcome, outcome_numbers
+from .outcome import finished, not_followed, outcome_numbers
 from .phases import phases, pressing_speed
 from .plan import DeformingPlan, characteristic_speed
 from .result import SECTIONS, DeformingResult
@@ -66,28 +64,14 @@ def pull_apart(plan: DeformingPlan, fields_at: Sequence[float] = ()) -> Deformin
         "trapped_volume": _trapped(motion.profiles[int(np.abs(columns["time"] - pulled).argmin())]),
         "force_error": motion.error,
     }
-    status, message = outcome(columns, numbers)
     sections = {
         name: np.array([getattr(one, name) for one in motion.profiles]) for name in SECTIONS
     }
-    for one in (*columns.values(), *sections.values()):
-        one.flags.writeable = False
     work = Work(
         motion.n_steps, motion.n_rejected, motion.n_iterations, clock.perf_counter() - begun
     )
     validity = ranges(plan, columns, sections, numbers)
-    warn(validity)
-    return DeformingResult(
-        plan,
-        status,
-        message,
-        FrozenDict(columns),
-        FrozenDict(sections),
-        FrozenDict({}),
-        FrozenDict(numbers),
-        validity,
-        work,
-    )
+    return finished(plan, columns, sections, {}, numbers, validity, work)
 
 
 def _columns(plan: DeformingPlan, film: SmoothGap, motion: Motion) -> dict[str, Array]:

@@ -14,8 +14,9 @@ import numpy as np
 from attrs import field, frozen
 
 from ....accuracy import Accuracy
-from ....errors import DescriptionError, PlanError
+from ....errors import PlanError
 from ....lubrication.reynolds.face import Face, block_means, face_from_level
+from ....scene.interface import own_grid
 from ....scene.planforms import Planform
 from ....scene.surfaces import realise, union_of
 from ....scene.window import Grid
@@ -118,13 +119,15 @@ def cells_of(scene: SeparationScene, accuracy: Accuracy) -> Cells:
         If two surfaces bring different grids, or `Accuracy.grid` is another.
     """
     outline = _outline(scene)
-    grid = _own_grid(scene, accuracy)
-    if grid is None:
+    own = own_grid(scene.interface, accuracy)
+    if own is None:
         grid = _laid_over(scene, outline, accuracy)
-    elif outline is not None:
-        _check_within(outline, grid)
     else:
-        _check_edges(scene)
+        grid = Grid(*own, False)
+        if outline is not None:
+            _check_within(outline, grid)
+        else:
+            _check_edges(scene)
     y, x = (one.ravel() for one in grid.from_centre())
     holes = _holes(scene)
     surfaces = [body.surface for body in scene.interface.bodies]
@@ -152,26 +155,6 @@ def _outline(scene: SeparationScene) -> Planform | None:
 
 def _holes(scene: SeparationScene) -> tuple[Any, ...]:
     return tuple(hole_cells(hole) for face in scene.interface.faces for hole in face.holes)
-
-
-def _own_grid(scene: SeparationScene, accuracy: Accuracy) -> Grid | None:
-    """Grid of the height maps of the bodies; None if there is no map."""
-    brought = set().union(*(body.surface.own_grids for body in scene.interface.bodies))
-    if not brought:
-        return None
-    if len(brought) > 1:
-        raise DescriptionError(
-            "Interface",
-            sorted(brought),
-            "have surfaces of one grid, (shape, pixel size [m])",
-            hint="resample one of the maps",
-        )
-    shape, pixel = brought.pop()
-    if accuracy.grid is not None and accuracy.shape != shape:
-        raise DescriptionError(
-            "Accuracy.grid", accuracy.grid, f"be that of the height map, {shape}, or left out"
-        )
-    return Grid(shape, pixel, False)
 
 
 def _laid_over(scene: SeparationScene, outline: Planform | None, accuracy: Accuracy) -> Grid:

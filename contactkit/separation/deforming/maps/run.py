@@ -9,15 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ....frozen import FrozenDict
 from ....lubrication.elastohydrodynamic.maps.follow import MapControl
 from ....lubrication.elastohydrodynamic.maps.motion import MapMotion, move_map
 from ....lubrication.elastohydrodynamic.motion import Phase, with_times
 from ....lubrication.elastohydrodynamic.step import StepFailedError
 from ....scene.loading import PressAndPull
-from ....validity import warn
 from ...curve_result import Work
-from ..outcome import not_followed, outcome, outcome_numbers
+from ..outcome import finished, not_followed, outcome_numbers
 from ..result import DeformingResult
 from ..validity import map_ranges
 from .cells import Cells
@@ -79,24 +77,10 @@ def pull_map_apart(
         "energy_error": _energy_error(film, columns),
         "liquid_error": _liquid_error(motion),
     }
-    status, message = outcome(columns, numbers)
-    for one in (*columns.values(), *motion.sections.values(), *motion.maps.values()):
-        one.flags.writeable = False
     counts = motion.counts
     work = Work(counts.steps, counts.rejected, counts.newton, clock.perf_counter() - begun)
     validity = map_ranges(plan, film, motion, columns, numbers)
-    warn(validity)
-    return DeformingResult(
-        plan,
-        status,
-        message,
-        FrozenDict(columns),
-        FrozenDict(motion.sections),
-        FrozenDict(motion.maps),
-        FrozenDict(numbers),
-        validity,
-        work,
-    )
+    return finished(plan, columns, motion.sections, motion.maps, numbers, validity, work)
 
 
 def _moved(

@@ -11,18 +11,19 @@
 
 /* Radau IIA with two and three stages (Hairer and Wanner, table IV.5.5 and section IV.8), the inverse of
    its matrix, and an estimate of the error by a formula on the same nodes and the start. */
-static const ck_method TWO = {
-    2, 3, {1.0 / 3.0, 1.0}, {{1.5, 0.5}, {-4.5, 2.5}}, {0.75, 0.25}, R6, {-4.5, 0.5}};
+static const double NODES[2] = {1.0 / 3.0, 1.0}, WEIGHTS[2] = {0.75, 0.25}, ERROR[2] = {-4.5, 0.5};
+static const double GAMMA = R6;
+static const ck_method TWO = {2, 3, NODES, WEIGHTS, &GAMMA, ERROR, {{1.5, 0.5}, {-4.5, 2.5}}};
 static const ck_method THREE = {
     3,
     4,
-    {(4.0 - R6) / 10.0, (4.0 + R6) / 10.0, 1.0},
+    ck_nodes,
+    ck_weights,
+    &ck_gamma,
+    ck_estimate,
     {{2.0 + R6 / 2.0, -1.2 + R6 * 29.0 / 30.0, 0.4 - R6 * 4.0 / 15.0},
      {-1.2 - R6 * 29.0 / 30.0, 2.0 - R6 / 2.0, 0.4 + R6 * 4.0 / 15.0},
-     {-1.0 + R6 * 8.0 / 3.0, -1.0 - R6 * 8.0 / 3.0, 5.0}},
-    {(16.0 - R6) / 36.0, (16.0 + R6) / 36.0, 1.0 / 9.0},
-    3.6378342527444957,
-    {(-13.0 - 7.0 * R6) / 3.0, (-13.0 + 7.0 * R6) / 3.0, -1.0 / 3.0}};
+     {-1.0 + R6 * 8.0 / 3.0, -1.0 - R6 * 8.0 / 3.0, 5.0}}};
 
 /* Opening ------------------------------------------------------------------------------------------ */
 
@@ -64,18 +65,6 @@ static long divide(ck_deforming *d, double *block) {
     return (long)(next - block);
 }
 
-static void share_out(ck_deforming *d) {
-    static const double point[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
-    static const double weight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-    const double *r = d->record->rings.radius;
-    int e, q;
-    for (e = 0; e < d->n; e++)
-        for (q = 0; q < 3; q++) {
-            double width = r[e + 1] - r[e];
-            d->share[3 * e + q] = (r[e] + width * point[q]) * weight[q] / (12.0 * width);
-        }
-}
-
 const char *ck_deforming_open(ck_deforming *d, const ck_bodies *record, int has_mass) {
     static double none[1];
     const char *problem = NULL;
@@ -92,7 +81,7 @@ const char *ck_deforming_open(ck_deforming *d, const ck_bodies *record, int has_
     d->exchanged = (int *)calloc((size_t)(d->size * (d->method->stages + 1)), sizeof(int));
     if (!d->block || !d->exchanged) return "there is no memory for it";
     divide(d, d->block);
-    if (record->has_rings) share_out(d);
+    if (record->has_rings) ck_rings_share(d);
     return NULL;
 }
 

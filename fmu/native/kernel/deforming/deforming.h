@@ -14,8 +14,8 @@ enum { CK_MOST_STAGES = 3 };
 /* A method Radau IIA. */
 typedef struct {
     int stages, order; /* of the error estimate, in the length of the step */
-    double nodes[CK_MOST_STAGES], inverse[CK_MOST_STAGES][CK_MOST_STAGES];
-    double weights[CK_MOST_STAGES], gamma, error[CK_MOST_STAGES];
+    const double *nodes, *weights, *gamma, *error;
+    double inverse[CK_MOST_STAGES][CK_MOST_STAGES];
 } ck_method;
 
 /* What moves the bodies, over the time since the step of the host began: a gap, or a force on a mass;
@@ -69,6 +69,7 @@ void ck_deforming_rest(ck_deforming *d, double gap);
 void ck_level_of(ck_deforming *d, const double *y, double gap, double speed, ck_level *level, int slopes);
 void ck_series_level(ck_deforming *d, const double *y, double speed, ck_level *level, int slopes);
 void ck_rings_level(ck_deforming *d, const double *y, double gap, ck_level *level, int slopes);
+void ck_rings_share(ck_deforming *d); /* fills `share`, which stays as it is */
 double ck_rings_axis(const ck_deforming *d, const double *y, double gap);
 double ck_rings_moved(const ck_deforming *d, const double *y, double gap, const double *dy, double dgap,
                       double *closing);

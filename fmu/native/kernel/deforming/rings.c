@@ -11,6 +11,17 @@
 
 /* Points and weights of Gauss-Legendre on (0, 1): h^3 r on an element is a polynomial of degree 4. */
 static const double POINT[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
+static const double WEIGHT[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+
+void ck_rings_share(ck_deforming *d) {
+    const double *r = d->record->rings.radius;
+    int e, q;
+    for (e = 0; e < d->n; e++)
+        for (q = 0; q < 3; q++) {
+            double width = r[e + 1] - r[e];
+            d->share[3 * e + q] = (r[e] + width * POINT[q]) * WEIGHT[q] / (12.0 * width);
+        }
+}
 
 static double displacement(const ck_deforming *d, const double *y, int i) {
     const double *row = d->record->rings.compliance.entry + (long)i * (d->n + 1);

@@ -130,7 +130,7 @@ static int estimate(ck_deforming *d, const ck_attempted *a, double *error) {
             found[i] += d->method->error[k] * (d->levels[k].stored[i] - d->start_stored[i]) / a->length;
     }
     for (i = 0; i < m * m; i++)
-        d->square[i] = d->method->gamma / a->length * end->stored_slopes[i] + end->rest_slopes[i];
+        d->square[i] = *d->method->gamma / a->length * end->stored_slopes[i] + end->rest_slopes[i];
     if (!ck_dense_factor(d->square, d->exchanged + s * m, m)) return 0;
     ck_dense_solve(d->square, d->exchanged + s * m, m, found);
     for (i = 0; i < d->n; i++) force += end->force_slopes[i] * found[i];
