@@ -75,8 +75,7 @@ def contact_gradient(result: ContactResult, of: str | Functional, to: Sequence[s
         change = _change(plan, result, made)
         n_applications += change.pressed is not None
         slopes[one.path] = found.along(change)
-        if made.is_one_sided:
-            notes += (f"{one.path}: values to one side alone, the others are refused",)
+        notes += made.notes(one.path)
     if HEIGHTS in to:
         slopes[HEIGHTS] = found.heights
     return Gradient(
