@@ -43,7 +43,7 @@ class Differences(NamedTuple, Generic[T]):
     is_one_sided: bool
 
     def notes(self, path: str) -> tuple[str, ...]:
-        """What is to be said of a slope that comes from them."""
+        """Remark on a slope of one-sided differences, if these are."""
         if not self.is_one_sided:
             return ()
         return (f"{path}: values to one side alone, the others are refused",)
