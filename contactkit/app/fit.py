@@ -61,7 +61,7 @@ def fit_scene(
         noise=options.noise,
         branch=options.branch,
     )
-    settings = None if accuracy == Accuracy() else accuracy
+    settings = accuracy if accuracy.given or accuracy != Accuracy.standard else None
     found = fit(scene, curve, paths, settings, nuisance=nuisances)
     progress(1.0)
     numbers: Mapping[str, tuple[Any, str]] = {"status": (found.status, "-"), **found.scalars()}

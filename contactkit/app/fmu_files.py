@@ -138,9 +138,10 @@ def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any])
         "stiction-force" if film_alone else "stiction-mass"
     )
     film, start = native_scene(opened or _Named(FmuStart(what, given)), _film_model(model))
-    accuracy = getattr(opened, "accuracy", None)
-    rtol = None if accuracy is None else accuracy.film_rtol
-    rtol = None if rtol == Accuracy.standard.film_rtol else rtol  # which nobody asked for
+    accuracy: Accuracy = getattr(opened, "accuracy", Accuracy.standard)
+    rtol: float | None = accuracy.film_rtol
+    if "film_rtol" not in accuracy.given and rtol == Accuracy.standard.film_rtol:
+        rtol = None  # nobody asked for it
     build_native(film, order.out, model=kind, start=start, fmi=fmi, film_rtol=rtol)
     if film.effect(ElasticBodies) is not None:
         own = getattr(film.loading, "mass", None) if kind == "stiction-mass" else None

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from ..errors import DescriptionError, nearest
+from ..export.lines import aligned
 from ..files.structure import library_names, load_liquid, load_material
 from ..kinds import CONTACT_EFFECTS, SEPARATION_EFFECTS, SLIDING_EFFECTS
 from ..models.library import bundled_scenes
@@ -35,15 +36,7 @@ def listing(what: str) -> str:
     if what not in LISTS:
         raise DescriptionError("list", what, "be a known list", hint=nearest(what, LISTS))
     head, rows = LISTS[what]
-    return _table([head, *rows()])
-
-
-def _table(rows: Sequence[tuple[str, ...]]) -> str:
-    """Columns of text; the last one is as long as it likes."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    widths[-1] = 0
-    lines = ("  ".join(map(str.ljust, row, widths)) for row in rows)
-    return "\n".join(line.rstrip() for line in lines)
+    return "\n".join(aligned([head, *rows()]))
 
 
 def _scenes() -> Rows:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["Once", "PreparedInterface", "interface_key"]
+__all__ = ["Once", "PreparedInterface", "interface_key", "summed_compliance"]
 
 T = TypeVar("T")
 
@@ -87,7 +87,11 @@ class PreparedInterface:
         self.holes = holes_of(scene)
         self.compliances = scene.demand(Compliance).prepare(scene, grid)
         self.solver = ContactSolver(
-            grid.shape, grid.pixel_size, _sum(self.compliances), grid.edges, threads=threads
+            grid.shape,
+            grid.pixel_size,
+            summed_compliance(self.compliances),
+            grid.edges,
+            threads=threads,
         )
         self._bodies = Once(lambda: tuple(self._operator(make) for make in self.compliances))
         self._lock = threading.Lock()
@@ -133,8 +137,8 @@ class PreparedInterface:
         return Convolution(shape, symbol, periodic, transforms)
 
 
-def _sum(makers: tuple[SymbolMaker, ...]) -> SymbolMaker:
-    """Compliances of bodies in contact add up."""
+def summed_compliance(makers: tuple[SymbolMaker, ...]) -> SymbolMaker:
+    """Return what makes the symbol of bodies in contact: their compliances add up."""
     if len(makers) == 1:
         return makers[0]
 

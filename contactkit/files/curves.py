@@ -10,14 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import asdict, field, frozen
 
-from ..errors import ContactkitError, DescriptionError
 from ..frozen import FrozenDict
-from ..reading.archives import UNREADABLE
-from ..reading.arrays import read_arrays
-from ..reading.texts import from_json
 from ..scene.curve import Curve, Shown
 from ..validity import ValidityNumber
-from .results import save_npz
+from .results import read_npz, save_npz
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -140,20 +136,10 @@ def read_curve(path: str | Path) -> SavedCurve:
     >>> (curve["contact_radius"] * 1e9).round(1), curve.unit("contact_radius")
     (array([413.5, 439.7]), 'm')
     """
-    try:
-        # Opened here, as numpy does not close a file that it cannot read.
-        with Path(path).open("rb") as file:
-            columns = read_arrays(file, Path(path).name)
-        header = from_json(str(columns.pop("header")), f"{Path(path).name}, header")
-        return _unpacked(header, columns)
-    except UNREADABLE as error:
-        hint = error if isinstance(error, ContactkitError) else f"{type(error).__name__}: {error}"
-        raise DescriptionError(
-            "file", str(path), "be a curve of contactkit", hint=str(hint)[:500]
-        ) from None
+    return read_npz(path, "curve", _unpacked)
 
 
-def _unpacked(header: Any, columns: Arrays) -> SavedCurve:
+def _unpacked(header: Any, columns: Arrays, _: str) -> SavedCurve:
     """The curve of a file; what is missing or of another type is refused by an error of Python."""
     if "axis" in header:  # a file of before version 0.2 has no kind, and less in it
         header = {"kind": "curve", "validity": [], "parts": {}, "shown": {}} | header

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from numbers import Real
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, TypeVar, overload
@@ -43,11 +43,13 @@ if TYPE_CHECKING:
 
 AnyResult = SeparationResult | DeformingResult | SlidingResult | ContactResult
 R = TypeVar("R", bound=Result)
+T = TypeVar("T")
 
 __all__ = [
     "AnyResult",
     "from_bytes",
     "load_result",
+    "read_npz",
     "read_state",
     "save_csv",
     "save_npz",
@@ -62,6 +64,32 @@ def save_npz(path: str | Path, columns: Mapping[str, Any], header: Mapping[str, 
     with write_whole(path) as temporary:
         np.savez_compressed(temporary, header=np.array(json.dumps(header)), **columns)
     return path
+
+
+def read_npz(path: str | Path, what: str, unpacked: Callable[[Any, Arrays, str], T]) -> T:
+    """Read what `save_npz` has written: `unpacked` takes header, columns and name of the file.
+
+    Raises
+    ------
+    DescriptionError
+        If the file is no `what`: it is cut short, exceeds a limit of `contactkit.reading`, or
+        `unpacked` refuses it by an error of Python.
+    """
+    try:
+        # Opened here, as numpy does not close a file that it cannot read.
+        with Path(path).open("rb") as file:
+            return unpacked(*_parts(file, Path(path).name), Path(path).name)
+    except UNREADABLE as error:
+        hint = error if isinstance(error, ContactkitError) else f"{type(error).__name__}: {error}"
+        raise DescriptionError(
+            "file", str(path), f"be a {what} of contactkit", hint=str(hint)[:500]
+        ) from None
+
+
+def _parts(source: IO[bytes], name: str) -> tuple[Any, Arrays]:
+    """Header and columns of a file."""
+    columns = read_arrays(source, name)
+    return from_json(str(columns.pop("header")), f"{name}, header"), columns
 
 
 def save_result(result: Result, path: str | Path) -> Path:
@@ -172,8 +200,7 @@ def _no_result(where: str, error: Exception) -> ContactkitError:
 
 def _read(source: IO[bytes], name: str) -> AnyResult:
     try:
-        columns = read_arrays(source, name)
-        header = from_json(str(columns.pop("header")), f"{name}, header")
+        header, columns = _parts(source, name)
     except DescriptionError as error:
         raise DescriptionError("file", name, "be a result of contactkit", hint=str(error)) from None
     result = _unpacked(header, columns, name)

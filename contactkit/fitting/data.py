@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-__all__ = ["NUISANCES", "MeasuredBound", "MeasuredCurve"]
+__all__ = ["NUISANCES", "MeasuredBound", "MeasuredCurve", "by_curve"]
 
 NUISANCES = ("shift", "zero", "scale", "stiffness")
 """Nuisances of a curve: of its axis, of its quantity (two), and of the spring in between."""
@@ -302,3 +302,8 @@ class MeasuredBound:
         if not (math.isfinite(noise) and noise > 0.0):
             raise DescriptionError(f"{label}.noise", self.noise, "be positive", unit=unit)
         return low, high, noise
+
+
+def by_curve(curves: Sequence[MeasuredCurve], rows: Floats) -> list[Floats]:
+    """Rows of the residuals of a fit: those of each curve, and last those of bounds and priors."""
+    return np.split(rows, np.cumsum([curve.values.size for curve in curves]))

@@ -20,7 +20,7 @@ from ..scene.scenes import ContactScene, Scene
 from ..studies.paths import changed
 from ..studies.study import check_whole
 from ..validity import ValidityNumber, note_worst
-from .data import MeasuredBound, MeasuredCurve
+from .data import MeasuredBound, MeasuredCurve, by_curve
 from .fitted import FittedCurve, FittedParameter, FitWork, Searched
 from .intervals import BetterFitError, Interval, Linear, interval, level_factor, linearised
 from .model import Model
@@ -239,14 +239,14 @@ def _best_of(problem: Problem, start: Floats, starts: int) -> Found:
 
 def _noise(problem: Problem, best: Found, n_data: int) -> tuple[float, ...]:
     """Noise of each curve from its residuals, each with its part of the degrees of freedom."""
-    found, at = [], 0
+    found = []
     free = max(1.0 - len(problem.width) / n_data, 1.0 / n_data)
     model = problem.model
-    for curve, shape, factor in zip(model.curves, model.deviations, problem.noise, strict=True):
-        part = best.residuals[at : at + curve.y.size] * factor
-        at += curve.y.size
+    *parts, _ = by_curve(model.curves, best.residuals)
+    rows = zip(model.curves, model.deviations, problem.noise, parts, strict=True)
+    for curve, shape, factor, part in rows:
         size = float(np.sqrt(np.mean((curve.y / shape) ** 2)))
-        estimate = math.sqrt(float(np.mean(part**2)) / free)
+        estimate = math.sqrt(float(np.mean((part * factor) ** 2)) / free)
         found.append(max(estimate, _LEAST_NOISE * size) if curve.is_estimated else factor)
     return tuple(found)
 
@@ -345,9 +345,9 @@ def _curves(
     units: Sequence[tuple[str, str]],
     fractions: Floats,
 ) -> tuple[FittedCurve, ...]:
-    predicted, found, at = problem.model.predict(values), [], 0
+    predicted, found = problem.model.predict(values), []
+    *parts, _ = by_curve(problem.model.curves, fractions)
     for i, curve in enumerate(problem.model.curves):
-        n = curve.y.size
         deviation = problem.model.deviations[i] * problem.noise[i]
         found.append(
             FittedCurve(
@@ -360,10 +360,9 @@ def _curves(
                 predicted.readings[i],
                 deviation,
                 curve.is_estimated,
-                fractions[at : at + n],
+                parts[i],
             )
         )
-        at += n
     return tuple(found)
 
 
@@ -392,19 +391,17 @@ def _aicc(problem: Problem, best: Found, n_data: int) -> float:
 
     Readings with an estimated noise have its most likely value, without degrees of freedom.
     """
-    total, at = 0.0, 0
-    model = problem.model
-    for curve, shape, factor in zip(model.curves, model.deviations, problem.noise, strict=True):
-        part = best.residuals[at : at + curve.y.size]
-        at += curve.y.size
+    total, model = 0.0, problem.model
+    *parts, rest = by_curve(model.curves, best.residuals)
+    rows = zip(model.curves, model.deviations, problem.noise, parts, strict=True)
+    for curve, shape, factor, part in rows:
         scale = factor
         if curve.is_estimated:
             scale *= max(math.sqrt(float(np.mean(part**2))), 1e-150)
             part = part * (factor / scale)
         deviation = shape * scale
         total += float(part @ part) + float(np.sum(np.log(2.0 * math.pi * deviation**2)))
-    rest = best.residuals[at:]
     total += float(rest @ rest)
-    k = len(problem.width) + sum(curve.is_estimated for curve in problem.model.curves)
+    k = len(problem.width) + sum(curve.is_estimated for curve in model.curves)
     left = n_data - k - 1
     return total + 2.0 * k + 2.0 * k * (k + 1) / left if left > 0 else math.inf

@@ -9,13 +9,9 @@ import numpy as np
 from attrs import asdict
 
 from ..accuracy import Accuracy
-from ..errors import ContactkitError, DescriptionError
 from ..files.curves import read_validity
-from ..files.results import save_npz
+from ..files.results import read_npz, save_npz
 from ..files.scenes import read_scene, scene_kind, unstructure
-from ..reading.archives import UNREADABLE
-from ..reading.arrays import read_arrays
-from ..reading.texts import from_json
 from ..scene.scenes import Scene
 from .fitted import FittedCurve, FittedParameter, FitWork
 from .result import Fit
@@ -85,24 +81,13 @@ def read_fit(path: str | Path) -> Fit:
     DescriptionError
         If the file is no saved fit, is cut short, or exceeds a limit of `contactkit.reading`.
     """
-    name = Path(path).name
-    try:
-        # Opened here, as numpy does not close a file that it cannot read.
-        with Path(path).open("rb") as file:
-            columns = read_arrays(file, name)
-        header = from_json(str(columns.pop("header")), f"{name}, header")
-        if header.get("kind") != "fit":
-            raise ValueError(f"it holds a {header.get('kind')!r:.40}")
-        return _unpacked(header, columns, name)
-    except (*UNREADABLE, IndexError) as error:
-        hint = error if isinstance(error, ContactkitError) else f"{type(error).__name__}: {error}"
-        raise DescriptionError(
-            "file", str(path), "be a fit of contactkit", hint=str(hint)[:500]
-        ) from None
+    return read_npz(path, "fit", _unpacked)
 
 
 def _unpacked(header: dict[str, Any], columns: Arrays, name: str) -> Fit:
     """The fit of a file; what is missing or of another type is refused by an error of Python."""
+    if header.get("kind") != "fit":
+        raise ValueError(f"it holds a {header.get('kind')!r:.40}")
     scene, tables = None, header["scene"]
     if tables is not None:
         scene = read_scene(tables, scene_kind(tables), name).scene

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from attrs import field, frozen
 
+from ..studies.columns import labels_of
 from ..units import readable_unit
 from .intervals import Linear
 from .search import Found, Problem
@@ -138,12 +139,6 @@ def short_names(names: Sequence[str]) -> list[str]:
     >>> short_names(["interface.lower.surface.radius", "interface.upper.surface.radius", "zero"])
     ['lower.surface.radius', 'upper.surface.radius', 'zero']
     """
-    found = []
-    for name in names:
-        parts = name.partition(",")[0].split(".")
-        ends = [".".join(parts[i:]) for i in range(len(parts) - 1, -1, -1)]
-        others = [other.partition(",")[0] for other in names if other != name]
-        found.append(
-            next((e for e in ends if not any(f".{o}".endswith(f".{e}") for o in others)), ends[-1])
-        )
-    return found
+    firsts = [name.partition(",")[0] for name in names]
+    labels = labels_of(firsts, firsts)
+    return [labels[one] for one in firsts]

@@ -212,8 +212,10 @@ class Model:
         scale = place.value("scale", values)
         return scale * ideal + place.value("zero", values), scale * error
 
-    def slope(self, i: int, values: Sequence[float]) -> tuple[Floats, ...] | None:
-        """Exact derivative of the readings to a parameter; None where it is not known.
+    def slope(
+        self, i: int, values: Sequence[float], predicted: Prediction
+    ) -> tuple[Floats, ...] | None:
+        """Exact derivative of the readings `predicted` to a parameter; None where it is not known.
 
         Known to zero and scale of a curve. A result that offers derivatives of its numbers to the
         fields of its scene is asked here, before differences are taken.
@@ -221,7 +223,7 @@ class Model:
         name = self.parameters[i].name.rpartition(".")[2]
         if self.parameters[i].paths or name not in ("zero", "scale"):
             return None
-        found, predicted = [], self.predict(values)
+        found = []
         for place, readings in zip(self._places, predicted.readings, strict=True):
             if place.sought.get(name) != i:
                 found.append(np.zeros_like(readings))

@@ -108,7 +108,7 @@ def _table(source: Any) -> tuple[dict[str, _Column], str]:
     if isinstance(source, str | Path):
         return _csv(Path(source)), Path(source).stem
     if isinstance(source, Curve):
-        return {n: (v, unit) for n, (v, unit) in source.table().items()}, ""
+        return source.table(), ""
     if isinstance(source, Result):
         return {n: (v, source.unit(n)) for n, v in source.columns.items()}, ""
     if hasattr(source, "data_vars"):  # a dataset of xarray

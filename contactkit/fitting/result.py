@@ -269,7 +269,7 @@ class Fit(Answer):
         from ..files.scenes import scene_text
 
         lines = [f"{one.name} = {one.text}, {one.verdict}" for one in self.parameters]
-        head = "".join(f"# {line}\n" for text in (self.message, *lines) for line in [text])
+        head = "".join(f"# {line}\n" for line in (self.message, *lines))
         return f"{head}\n{scene_text(self.scene, 'fitted scene')}"
 
     def profile(self, name: str, n: int = 15, *, reach: float = 3.0) -> Profile:

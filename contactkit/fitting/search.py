@@ -111,12 +111,13 @@ class Problem:
 
     def solver_error(self, place: Floats) -> float:
         """Stated error of the solver over the noise, root mean square over all readings."""
-        found = self.model.predict(self.values(place))
-        squares = [
-            np.sum((error / deviation) ** 2)
-            for error, deviation in zip(found.errors, self._deviation, strict=True)
-        ]
-        return math.sqrt(sum(squares) / max(sum(y.size for y in self._y), 1))
+        squares = self._squared_errors(self.model.predict(self.values(place)))
+        return math.sqrt(squares / sum(y.size for y in self._y))
+
+    def _squared_errors(self, found: Prediction) -> float:
+        """Squares of the stated errors over the noise, summed over the readings."""
+        pairs = zip(found.errors, self._deviation, strict=True)
+        return float(sum(np.sum((error / deviation) ** 2) for error, deviation in pairs))
 
     def slopes(self, place: Floats, *, is_central: bool = False) -> Floats:
         """Derivatives of the residuals to the coordinates: exact ones, else differences.
@@ -126,22 +127,21 @@ class Problem:
         ContactkitError
             If there is no result on either side.
         """
-        base = self.strict_residuals(place)
-        n = sum(y.size for y in self._y)
-        error = self.solver_error(place) * math.sqrt(n)
+        values = self.values(place)
+        found = self.model.predict(values)
+        base, error = self._rows(found, values), math.sqrt(self._squared_errors(found))
         columns = []
         for i in range(len(self.width)):
-            exact = self._exact(i, place)
+            exact = self._exact(i, place, found)
             columns.append(
                 self._difference(i, place, base, error, is_central) if exact is None else exact
             )
-        found = np.column_stack(columns)
-        self._norms = np.linalg.norm(found, axis=0)
-        return found
+        slopes = np.column_stack(columns)
+        self._norms = np.linalg.norm(slopes, axis=0)
+        return slopes
 
-    def _exact(self, i: int, place: Floats) -> Floats | None:
-        values = self.values(place)
-        known = self.model.slope(i, values)
+    def _exact(self, i: int, place: Floats, found: Prediction) -> Floats | None:
+        known = self.model.slope(i, self.values(place), found)
         if known is None:
             return None
         factor = self.model.parameters[i].slope(float(place[i]))

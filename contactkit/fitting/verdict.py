@@ -11,7 +11,7 @@ from scipy import stats
 
 from ..units import quantity_text
 from ..validity import ValidityNumber
-from .data import MeasuredCurve
+from .data import MeasuredCurve, by_curve
 from .intervals import Interval, Linear
 from .parameters import Parameter
 
@@ -132,16 +132,15 @@ def decided_by(
     fractions: Floats,
 ) -> str:
     """Part of the data that decides a parameter: the curve that weighs most, and where along it."""
-    parts, at = [], 0
-    for curve, unit in zip(curves, axes, strict=True):
-        parts.append((float(fractions[at : at + curve.y.size].sum()), curve, unit, at))
-        at += curve.y.size
-    rest = [(float(fractions[at + k]), name) for k, name in enumerate(others)]
-    weight, curve, unit, at = max(parts, key=lambda one: one[0])
-    if rest and max(rest)[0] > weight:
-        return f"{max(rest)[1]} ({100.0 * max(rest)[0]:.0f} % of the information)"
+    *parts, rest = by_curve(curves, fractions)
+    weights = [float(part.sum()) for part in parts]
+    best = int(np.argmax(weights))
+    weight, curve, unit = weights[best], curves[best], axes[best]
+    largest, name = max(zip(rest.tolist(), others, strict=True), default=(0.0, ""))
+    if largest > weight:
+        return f"{name} ({100.0 * largest:.0f} % of the information)"
     order = np.argsort(curve.x, kind="stable")
-    mine = fractions[at : at + curve.y.size][order]
+    mine = parts[best][order]
     first, last = _shortest(curve.x[order], mine, _MOST * weight)
     inside = float(mine[first : last + 1].sum())
     ends = (quantity_text(float(curve.x[order][k]), unit) for k in (first, last))

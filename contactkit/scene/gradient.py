@@ -9,6 +9,7 @@ import numpy as np
 from attrs import field, frozen
 
 from ..errors import DescriptionError, nearest
+from ..export.lines import aligned
 from ..units import quantity_text
 from .tabular import Contents, Quantity, Tabular, pixel_axes
 
@@ -115,10 +116,8 @@ class Gradient(Tabular):
             else:
                 ends = f"{np.min(slope):.4g} to {np.max(slope):.4g} {unit}"
                 rows.append((path, "map", ends, ""))
-        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-        lines = ["  ".join(c.ljust(w) for c, w in zip(r, widths, strict=True)) for r in rows]
         head = f"{self.quantity} = {quantity_text(self.value, self.unit)}"
-        return "\n".join([head, *(line.rstrip() for line in lines), *self.notes])
+        return "\n".join([head, *aligned(rows), *self.notes])
 
     def __str__(self) -> str:
         """Return the table."""

@@ -26,19 +26,19 @@ from .paths import axes, changed, joined, value_at
 from .study import Study, check_effects, study
 
 __all__ = [
-    "WIDE",
     "Answers",
     "Influence",
     "Range",
     "Sensitivity",
     "answers",
+    "is_wide",
     "ranges_of",
     "sensitivity",
 ]
 
 # Ratio of the ends of a range from which the values between are spaced by ratios: five equal steps
 # over a decade or more leave its lower third, in logarithms more than half of it, without a value.
-WIDE = 10.0
+_WIDE = 10.0
 _Row = tuple[Any, ...]
 
 
@@ -467,9 +467,14 @@ class _Assumption:
         return Influence(self.path, self.unit, self.base[0], values, results, messages, self.reason)
 
 
+def is_wide(low: float, high: float) -> bool:
+    """Whether the ends of a range are so far apart that the values between go by ratios."""
+    return low * high > 0.0 and max(high / low, low / high) > _WIDE
+
+
 def _between(low: float, high: float, n: int) -> list[float]:
     """Values from end to end, by ratios where these are far apart."""
-    if low * high > 0.0 and max(high / low, low / high) > WIDE:
+    if is_wide(low, high):
         found = np.geomspace(low, high, n).tolist()
     else:
         found = np.linspace(low, high, n).tolist()

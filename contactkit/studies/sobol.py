@@ -17,9 +17,10 @@ from attrs import field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, InfeasibleError
+from ..export.lines import aligned
 from ..scene.tabular import Contents, Quantity, Tabular
 from .paths import axes
-from .sensitivity import WIDE, Range, answers, ranges_of
+from .sensitivity import Range, answers, is_wide, ranges_of
 
 __all__ = ["SobolIndices", "sobol_indices"]
 
@@ -70,10 +71,8 @@ class SobolIndices(Tabular):
         firsts = map(_text, self.first, self.first_interval)
         totals = map(_text, self.total, self.total_interval)
         rows += zip(self.paths, firsts, totals, strict=True)
-        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-        lines = ["  ".join(c.ljust(w) for c, w in zip(r, widths, strict=True)) for r in rows]
         head = f"{self.quantity} = {self.mean:.4g} +- {self.deviation:.3g} {self.unit}"
-        return "\n".join([head, *(line.rstrip() for line in lines)])
+        return "\n".join([head, *aligned(rows)])
 
     def __str__(self) -> str:
         """Return the table."""
@@ -202,8 +201,8 @@ def _values(spans: dict[str, _Interval], row: Any) -> dict[str, Any]:
     """Values at a place of the unit cube."""
     found: dict[str, Any] = {}
     for (path, (low, high)), x in zip(spans.items(), row.tolist(), strict=True):
-        is_wide = low * high > 0.0 and max(high / low, low / high) > WIDE
-        found[path] = low * (high / low) ** x if is_wide else low + (high - low) * x
+        by_ratio = is_wide(low, high)
+        found[path] = low * (high / low) ** x if by_ratio else low + (high - low) * x
     return found
 
 

@@ -281,7 +281,7 @@ def test_a_parameter_over_a_decade_is_fitted_by_its_logarithm():
 
 def covered(given, noisy, n):
     """How many of the intervals of `n` fits hold the truth, by parameter."""
-    hits = np.zeros(len(given))
+    hits = np.zeros(len(given[0]))
     for seed in range(n):
         data = measured(values=noisy(np.random.default_rng(seed)), **given[1])
         found = ck.fit(sphere(), data, SOUGHT, solve=closed)

@@ -192,3 +192,27 @@ def test_the_command_line_fits_a_scene_file(tmp_path, capsys):
     assert ck.load_scene(out / "fitted.toml").interface.meniscus.liquid.viscosity > 0.1
     assert main([*given[:-1], "loading.speed:1..2"]) == 2
     assert "be a path and a range" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("given", "used"),
+    [
+        (ck.Accuracy(), None),
+        (ck.Accuracy(curve_rtol=1e-3), 1e-3),  # the usual one, and asked for all the same
+        (ck.Accuracy.draft, 1e-2),
+    ],
+)
+def test_a_scene_file_says_how_exact_its_runs_are(tmp_path, monkeypatch, given, used):
+    from contactkit.app import fit
+
+    def taken(scene, data, parameters, accuracy, **more):
+        asked.append(accuracy and accuracy.curve_rtol)
+        return ck.fit(scene, data, parameters, solve=closed)
+
+    asked = []
+    monkeypatch.setattr(fit, "fit", taken)
+    (tmp_path / "pull.csv").write_text("gap [um],force [uN]\n2,90\n3,60\n4,45\n")
+    sought = ("interface.meniscus.liquid.viscosity=10 mPa.s..10 Pa.s",)
+    options = fit.FitOptions(tmp_path / "pull.csv", "gap", "force", sought, "1 %")
+    fit.fit_scene(sphere(), given, None, lambda done: None, options)
+    assert asked == [used]

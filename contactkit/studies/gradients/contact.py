@@ -11,6 +11,7 @@ from ...contact.effects.base import Compliance, FixedHardness
 from ...contact.functionals import Functional, functional
 from ...contact.grid import combined_heights
 from ...contact.plan import ContactPlan, unprepared_plan
+from ...contact.prepared import summed_compliance
 from ...contact.solver.convolution import Convolution
 from ...errors import NotSimulatedError
 from ...scene.gradient import HEIGHTS, Gradient
@@ -75,8 +76,7 @@ def contact_gradient(result: ContactResult, of: str | Functional, to: Sequence[s
         change = _change(plan, result, made)
         n_applications += change.pressed is not None
         slopes[one.path] = found.along(change)
-        if made.is_one_sided:
-            notes += (f"{one.path}: values to one side alone, the others are refused",)
+        notes += made.notes(one.path)
     if HEIGHTS in to:
         slopes[HEIGHTS] = found.heights
     return Gradient(
@@ -112,7 +112,7 @@ def _prepared(plan: ContactPlan, scene: ContactScene) -> _Prepared:
     symbol, heights = None, None
     if (bodies.lower.stack, bodies.upper.stack) != (others.lower.stack, others.upper.stack):
         makers = made.scene.demand(Compliance).prepare(made.scene, made.grid)
-        symbol = _symbol(makers, plan)
+        symbol = summed_compliance(makers)(plan.grid.shape, plan.grid.pixel_size)
     if (bodies.lower.surface, bodies.upper.surface) != (
         others.lower.surface,
         others.upper.surface,
@@ -123,16 +123,9 @@ def _prepared(plan: ContactPlan, scene: ContactScene) -> _Prepared:
     return _Prepared(symbol, heights, hardness, load or 0.0, approach or 0.0)
 
 
-def _symbol(makers: Sequence[object], plan: ContactPlan) -> Map:
-    grid = plan.grid
-    symbols = [maker(grid.shape, grid.pixel_size) for maker in makers]  # type: ignore[operator]
-    total: Map = sum(symbols[1:], symbols[0])
-    return total
-
-
 def _change(plan: ContactPlan, result: ContactResult, made: Differences[_Prepared]) -> Change:
     """Differences over a parameter; those of the compliance applied to the pressure."""
-    pairs, scene, grid = list(zip(made.prepared, made.weights, strict=True)), plan.scene, plan.grid
+    pairs, grid = list(zip(made.prepared, made.weights, strict=True)), plan.grid
 
     def summed(values: list[Map | None], own: Callable[[], Map]) -> Map | None:
         """Difference of maps, None where one is that of the scene itself."""
@@ -144,7 +137,7 @@ def _change(plan: ContactPlan, result: ContactResult, made: Differences[_Prepare
 
     symbol = summed(
         [one.symbol for one in made.prepared],
-        lambda: _symbol(scene.demand(Compliance).prepare(scene, grid), plan),
+        lambda: summed_compliance(plan.prepared.compliances)(grid.shape, grid.pixel_size),
     )
     pressed = None
     if symbol is not None and np.any(symbol):
@@ -154,7 +147,7 @@ def _change(plan: ContactPlan, result: ContactResult, made: Differences[_Prepare
         hardness = sum(weight * np.asarray(one.hardness) for one, weight in pairs)
     heights = [one.heights for one in made.prepared]
     return Change(
-        heights=summed(heights, lambda: combined_heights(scene, grid)),
+        heights=summed(heights, lambda: plan.heights),
         pressed=pressed,
         hardness=hardness,
         load=sum(weight * one.load for one, weight in pairs),

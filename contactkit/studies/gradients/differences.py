@@ -42,6 +42,12 @@ class Differences(NamedTuple, Generic[T]):
     weights: tuple[float, ...]
     is_one_sided: bool
 
+    def notes(self, path: str) -> tuple[str, ...]:
+        """Remark on a slope of one-sided differences, if these are."""
+        if not self.is_one_sided:
+            return ()
+        return (f"{path}: values to one side alone, the others are refused",)
+
 
 def parameter(scene: Any, accuracy: Any, path: str) -> Parameter:
     """Return a number of a scene by its path.

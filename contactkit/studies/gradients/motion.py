@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from ...errors import DescriptionError, NotSimulatedError, nearest
@@ -60,11 +61,7 @@ def separation_gradient(result: SeparationResult, of: str, to: Sequence[str]) ->
         ]
     else:
         slopes, n_steps = _of_motion(result, of, made)
-    notes = tuple(
-        f"{one.path}: values to one side alone, the others are refused"
-        for one, row in zip(numbers, made, strict=True)
-        if row.is_one_sided
-    )
+    notes = [row.notes(one.path) for one, row in zip(numbers, made, strict=True)]
     return Gradient(
         of,
         known[of][1],
@@ -72,7 +69,7 @@ def separation_gradient(result: SeparationResult, of: str, to: Sequence[str]) ->
         dict(zip((one.path for one in numbers), slopes, strict=True)),
         {one.path: one.value for one in numbers},
         {one.path: one.unit for one in numbers},
-        notes,
+        tuple(chain.from_iterable(notes)),
         n_steps=n_steps,
     )
 

@@ -180,5 +180,11 @@ def test_a_scene_file_says_how_fine_its_grid_is(tmp_path, monkeypatch):
     monkeypatch.setattr(build, "build_native", lambda *given, **more: asked.update(more))
     place = tmp_path / "ring.toml"
     ck.save_scene(cavitating(RING), place)
-    build_fmu(Order(str(place), ("accuracy.film_rtol=0.02",), tmp_path / "x.fmu", True, None, "2"))
-    assert asked["film_rtol"] == 0.02
+    for settings, film_rtol in (
+        (("accuracy.film_rtol=0.02",), 0.02),
+        (("accuracy.film_rtol=0.001",), 0.001),  # the usual one, and asked for all the same
+        (("accuracy.level=reference",), 1e-4),
+        ((), None),
+    ):
+        build_fmu(Order(str(place), settings, tmp_path / "x.fmu", True, None, "2"))
+        assert asked["film_rtol"] == film_rtol
