@@ -276,6 +276,15 @@ def test_a_file_that_holds_no_image_is_refused(tmp_path, name, content, message)
     np.save(tmp_path / "ones.npy", np.ones((2, 2)))
     with pytest.raises(ck.DescriptionError, match="checksum"):
         _ = ck.ImageFile(path=tmp_path / "ones.npy", pixel_size=1e-6, checksum="0" * 64).area
+    with pytest.raises(ck.DescriptionError, match="be a file that exists"):
+        _ = ck.ImageFile(path="a" * 5000, pixel_size=1e-6).area
+
+
+def test_a_pixel_of_three_sizes_is_refused():
+    """The area used to be that of the first two."""
+    for kind, where in ((ck.Image, {"coverage": np.ones((2, 2))}), (ck.ImageFile, {"path": "a"})):
+        with pytest.raises(ck.DescriptionError, match=r"pixel_size must be one length or a pair"):
+            kind(pixel_size=(1e-6, 1e-6, 1e-6), **where)
 
 
 # Cavities under a sphere on a face ----------------------------------------------------------------
