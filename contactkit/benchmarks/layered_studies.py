@@ -192,11 +192,11 @@ def readings() -> list[Point]:
 
 
 _DISTANCES = {  # from the contact, in pixels
-    "1 pixel": (1, 1),
-    "2 pixels": (2, 2),
-    "3 pixels": (3, 3),
-    "4 to 6 pixels": (4, 6),
-    "7 pixels and more": (7, math.inf),
+    "1": (1, 1),
+    "2": (2, 2),
+    "3": (3, 3),
+    "4 to 6": (4, 6),
+    "7 and more": (7, math.inf),
 }
 
 
@@ -230,9 +230,6 @@ def off_contact() -> list[Point]:
         all_errors = np.concatenate(found)
         for span, (low, high) in _DISTANCES.items():
             some = all_errors[(far > low - 0.5) & (far <= high + 0.5)]
-            span = (
-                f"{low}" if low == high else f"{low} and more" if high > 9 else f"{low} to {high}"
-            )
             error = float(np.quantile(some, 0.99))
             points.append(Point(reading, span, error, seconds[reading], {}))
     return points

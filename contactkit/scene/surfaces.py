@@ -45,6 +45,7 @@ __all__ = [
     "Sphere",
     "Surface",
     "Wave",
+    "one_grid",
     "realise",
     "union_of",
     "whole_heights",
@@ -253,14 +254,14 @@ class FineRoughness(Described):
             If the width is missing, is given beside that of a measured surface, or does not fit
             the surface; if the patch has holes.
         """
-        own = self.surface.own_grids
-        if own and self.width is not None:
+        is_measured = bool(self.surface.own_grids)
+        if is_measured and self.width is not None:
             expected = "be left out: a measured surface has its own"
             raise DescriptionError("FineRoughness.width", self.width, expected, unit="m")
-        if not own and self.width is None:
+        if not is_measured and self.width is None:
             expected = "be given where no surface is measured"
             raise DescriptionError("FineRoughness.width", None, expected, unit="m")
-        grid = _one_grid(own, "FineRoughness.surface")
+        grid = one_grid(self.surface, "FineRoughness.surface", is_periodic=True)
         if grid is None:
             side = (self.width or 0.0) / self.pixels
             grid = Grid((self.pixels, self.pixels), (side, side), True)
@@ -268,13 +269,20 @@ class FineRoughness(Described):
         return heights - heights.mean(), grid.pixel_size
 
 
-def _one_grid(own: frozenset[OwnGrid], field: str) -> Grid | None:
-    """Grid of the height maps of a surface; None of a recipe, which takes any."""
+def one_grid(surface: Surface, field: str, *, is_periodic: bool) -> Grid | None:
+    """Grid of the height maps of a surface, of a `field`; None of a recipe, which takes any.
+
+    Raises
+    ------
+    DescriptionError
+        If the maps are on several grids.
+    """
+    own = surface.own_grids
     if len(own) > 1:
         raise DescriptionError(
             field, sorted(own), "have height maps of one grid, (shape, pixel size [m])"
         )
-    return next((Grid(shape, pixel, True) for shape, pixel in own), None)
+    return next((Grid(shape, pixel, is_periodic) for shape, pixel in own), None)
 
 
 def whole_heights(surface: Surface, grid: Grid, finer: str) -> Map:
@@ -387,11 +395,15 @@ class Flat(Surface):
         return self.planform if self.radius is None else Disc(radius=self.radius)
 
     @property
+    def is_level(self) -> bool:
+        """Whether it has one height everywhere, holes and fine roughness apart."""
+        is_plane = self.tilt == (0.0, 0.0) and self.crown_radius is None
+        return is_plane and self.relief is None and not self.recesses
+
+    @property
     def is_even(self) -> bool:
         """Whether it has one height everywhere, no roughness, and no hole."""
-        is_level = self.tilt == (0.0, 0.0) and self.crown_radius is None and self.relief is None
-        is_smooth = self.roughness is None
-        return is_level and is_smooth and not self.holes and not self.recesses
+        return self.is_level and self.roughness is None and not self.holes
 
     @property
     def is_disc(self) -> bool:

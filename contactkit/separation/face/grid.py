@@ -12,7 +12,7 @@ from ...errors import DescriptionError
 from ...lubrication.reynolds.face import Face, Hole, Pocket, rasterise
 from ...scene.faces import FaceHole, Recess, SealedHole
 from ...scene.planforms import Planform
-from ...scene.surfaces import Surface, whole_heights
+from ...scene.surfaces import Surface, one_grid, whole_heights
 from ...scene.window import Grid
 from .shape import FaceShape
 
@@ -100,12 +100,9 @@ def relief_heights(relief: Surface, outline: Planform, face: Face) -> Map:
 
 def _relief_grid(relief: Surface, outline: Planform) -> Grid:
     """Grid of a height map; of a recipe one over the face, the same for all grids of the film."""
-    if own := relief.own_grids:
-        if len(own) > 1:
-            expected = "have height maps of one grid, (shape, pixel size [m])"
-            raise DescriptionError("Flat.relief", sorted(own), expected)
-        ((pixels, pixel_size),) = own
-        return Grid(pixels, pixel_size, False)
+    own = one_grid(relief, "Flat.relief", is_periodic=False)
+    if own is not None:
+        return own
     left, right, low, high = outline.bounds
     width, height = 2.0 * max(abs(left), abs(right)), 2.0 * max(abs(low), abs(high))
     size = max(width, height) / _FINE
