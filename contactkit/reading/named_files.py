@@ -66,7 +66,7 @@ V = TypeVar("V")
 
 
 class Contents(Generic[K, V]):
-    """What the files hold that descriptions name: read once for as long as they do not change.
+    """Contents of files that descriptions name: read once for as long as they do not change.
 
     It goes with the last reference to the description, as a map may take 100 MB.
 

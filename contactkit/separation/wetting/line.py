@@ -134,7 +134,7 @@ def _curves(
 
 def _first_gap(prepared: PreparedScene[SeparationScene]) -> float:
     """Smallest gap [m] that is asked for: films of less volume are taken at smaller gaps."""
-    loses = any(isinstance(effect, VolumeLoss) for effect in prepared.scene.effects)
+    loses = prepared.scene.effect(VolumeLoss) is not None
     return prepared.scene.loading.initial_gap * (math.cbrt(LEAST_LEFT) if loses else 1.0)
 
 
