@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import abc
 import math
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from attrs import Attribute, field, frozen
@@ -471,6 +472,8 @@ def _as_coverage(value: Any) -> Map:
 class Image(Planform):
     """A planform drawn as an image: the fraction of each pixel that it covers.
 
+    Beyond the image there is nothing: a shape that it is covered with up to its edge ends there.
+
     Parameters
     ----------
     coverage : array_like (ny, nx)
@@ -515,19 +518,31 @@ class Image(Planform):
         size = self.pixel_size
         return size if isinstance(size, tuple) else (size, size)
 
-    def level(self, x: Any, y: Any) -> NDArray[np.float64]:
-        """See `Planform.level`: between the pixels by straight lines."""
+    @cached_property
+    def _distance(self) -> Map:
+        """Signed distance of each pixel to the rim [m], and of an empty one all around the image.
+
+        A plan asks for it on each of its grids.
+        """
         import numpy as np
-        from scipy.ndimage import map_coordinates
 
         from ..lubrication.reynolds.face import distance_of_image
 
+        return distance_of_image(np.pad(self.coverage, 1), self.pixel)
+
+    def level(self, x: Any, y: Any) -> NDArray[np.float64]:
+        """See `Planform.level`: between the pixels by straight lines; beyond them is nothing."""
+        import numpy as np
+        from scipy.ndimage import map_coordinates
+
         (dy, dx), (left, _, low, _) = self.pixel, self.bounds
-        rows, columns = np.broadcast_arrays((y - low) / dy - 0.5, (x - left) / dx - 0.5)
-        level = distance_of_image(self.coverage, self.pixel)
+        rows, columns = np.broadcast_arrays((y - low) / dy + 0.5, (x - left) / dx + 0.5)
         places = np.stack([rows.ravel(), columns.ravel()])
-        found = map_coordinates(level, places, order=1, mode="nearest")
-        return np.asarray(found, dtype=float).reshape(rows.shape)
+        last = np.reshape(self._distance.shape, (2, 1)) - 1.0
+        beyond = places - np.clip(places, 0.0, last)
+        found = map_coordinates(self._distance, places, order=1, mode="nearest")
+        away = np.hypot(dy * beyond[0], dx * beyond[1])
+        return np.asarray(found - away, dtype=float).reshape(rows.shape)
 
     @property
     def bounds(self) -> Bounds:
