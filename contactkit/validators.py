@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import numbers
+import os
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -18,11 +19,13 @@ __all__ = [
     "Described",
     "angle",
     "as_pair",
+    "as_path",
     "as_tuple",
     "as_number",
     "as_whole",
     "choice",
     "count",
+    "file_name",
     "finite",
     "fraction",
     "friction_coefficient",
@@ -30,6 +33,7 @@ __all__ = [
     "optional",
     "part",
     "positive",
+    "positive_or_pair",
     "refuse",
 ]
 
@@ -151,6 +155,20 @@ def count(owner: object, attribute: Attribute[Any], value: Any) -> None:
         raise refuse(owner, attribute, value, "be a whole number of at least 1")
 
 
+def positive_or_pair(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Require a positive, finite number, or a pair of them along y and x."""
+    for item in value if isinstance(value, tuple) else (value,):
+        positive(owner, attribute, item)
+    if isinstance(value, tuple) and len(value) != 2:
+        raise refuse(owner, attribute, value, "be one length or a pair (along y, along x)")
+
+
+def file_name(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Require the name of a file, as `as_path` makes it."""
+    if not isinstance(value, str):
+        raise refuse(owner, attribute, value, "be the name of a file")
+
+
 def optional(check: Validator) -> Validator:
     """Allow None (not given) besides what `check` allows."""
 
@@ -205,6 +223,11 @@ def as_number(value: Any) -> Any:
     made = as_whole(value)
     is_foreign = isinstance(made, numbers.Real) and not isinstance(made, int | float)
     return float(made) if is_foreign else made
+
+
+def as_path(value: Any) -> Any:
+    """Convert a path to text; leave other values to `file_name`."""
+    return os.fsdecode(value) if isinstance(value, os.PathLike) else value
 
 
 def as_pair(value: Any) -> Any:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..contact.discretisation import DiscretisationError
     from ..contact.result import ContactResult
 
-__all__ = ["contact_cost", "grid_sweep", "solver_sweep"]
+__all__ = ["contact_alone", "contact_cost", "grid_sweep", "solver_sweep"]
 
 Progress = Callable[[float], None]
 Method = Literal["active-set", "quasi-newton", "conjugate-gradient"]
@@ -90,7 +90,7 @@ def _discretised(scene: ContactScene, accuracy: Accuracy) -> DiscretisationError
     from ..contact.discretisation import discretisation_error
 
     try:
-        return discretisation_error(_solved(_bare(scene), accuracy))
+        return discretisation_error(_solved(contact_alone(scene), accuracy))
     except DescriptionError:
         return None
 
@@ -106,7 +106,7 @@ def _advice(found: WorkPrecision, error: float) -> str:
     )
 
 
-def _bare(scene: ContactScene) -> ContactScene:
+def contact_alone(scene: ContactScene) -> ContactScene:
     """The contact alone: compliance and hardness."""
     kept = tuple(e for e in scene.effects if isinstance(e, Compliance | PressureBound))
     return evolve(scene, effects=kept)
@@ -138,7 +138,7 @@ def solver_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) ->
     """
     import numpy as np
 
-    bare, accuracy = _frozen(_bare(scene), _smaller(scene, accuracy))
+    bare, accuracy = _frozen(contact_alone(scene), _smaller(scene, accuracy))
     exact = _solved(bare, evolve(accuracy, rtol=1e-11)).pressure
     plain = evolve(accuracy, method="conjugate-gradient", rtol=1e-8)
     near = _solved(bare, plain).pressure
@@ -220,7 +220,7 @@ def grid_sweep(scene: ContactScene, accuracy: Accuracy, progress: Progress) -> W
     """
     from scipy.fft import next_fast_len
 
-    bare = _bare(scene)
+    bare = contact_alone(scene)
     n = max(accuracy.shape)
     finest = evolve(accuracy, grid=2 * n)
     if not _resolves(bare, finest):

@@ -18,6 +18,7 @@ from ..fmu.framework.instance import Instance
 from ..fmu.framework.toolchain import local
 from ..fmu.native.build import build_native
 from ..liquids.liquid import Liquid
+from ..lubrication.disc_cavity import film_ring, receding_edge
 from ..lubrication.reynolds import damping
 from ..lubrication.reynolds.face import Hole, Pocket, face_from_mask, rasterise
 from ..lubrication.reynolds.film import GridFilm
@@ -119,25 +120,15 @@ def planforms() -> list[Point]:
     return points
 
 
-def _cavitated_force(sigma: float) -> float:
-    """Force over that of the tension on the whole disc, at sigma times the onset."""
-    low, high = 0.0, 1.0
-    for _ in range(200):
-        x = 0.5 * (low + high)
-        low, high = (x, high) if 1.0 - x * x + 2.0 * x * x * math.log(x) > 1.0 / sigma else (low, x)
-    rho = x * x
-    film = 0.5 * (1.0 - rho) ** 2 - rho * (1.0 - rho) - rho * rho * math.log(rho)
-    return rho + sigma * film
-
-
 def cavities() -> list[Point]:
     """Force of a disc that opens at a multiple of the speed at which it cavitates."""
     points, gap, drop = [], 5e-6, 1e6
     for sigma in (1.5, 3.0, 30.0, 300.0):
-        exact = _cavitated_force(sigma) * math.pi * _R**2 * drop
+        speed = sigma * damping.disc_damping(_R).onset_speed(gap, drop, _OIL)
+        conductance = gap**3 / (12.0 * _OIL)
+        exact = film_ring(receding_edge(sigma), _R**2, conductance, drop, speed).force
         for n in _CELLS:
             film = GridFilm(face=rasterise(_DISC, n), viscosity=_OIL, drop=drop)
-            speed = sigma * damping.disc_damping(_R).onset_speed(gap, drop, _OIL)
             rest = at_rest(film, gap)
             step = partial(step_film, rest, gap + speed * 1e-12, 1e-12)
             state, seconds = timed(step, 0.3)

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
     from ..contact.result import ContactResult
 
-__all__ = ["compliances", "depths", "off_contact", "readings", "spheres", "waves"]
+__all__ = ["compliances", "depths", "layered", "off_contact", "readings", "spheres", "waves"]
 
 _E, _NU, _RADIUS, _A0 = 1e9, 0.3, 1e-3, 1e-6  # substrate, sphere, and Hertz's contact on it
 _MODULUS = _E / (1.0 - _NU**2)
@@ -64,8 +64,8 @@ def compliances() -> list[Point]:
     return points
 
 
-def _stack(layers: Sequence[Sequence[float]], unit: float, length: float) -> Stack:
-    """Layers of (modulus, thickness) in units of a substrate and a length."""
+def layered(layers: Sequence[Sequence[float]], unit: float, length: float) -> Stack:
+    """Layers of (modulus, thickness) in units of a substrate [Pa] and a length [m]; nu = 0.3."""
 
     def material(ratio: float) -> Material:
         return Material(young_modulus=ratio * unit, poisson_ratio=_NU)
@@ -101,7 +101,7 @@ def spheres() -> list[Point]:
 
 
 def _sphere(case: Mapping[str, Any], *effects: Any) -> ContactResult:
-    solid = _stack(case["layers"], _E, _A0)
+    solid = layered(case["layers"], _E, _A0)
     scene = ContactScene(
         interface=Interface(
             lower=Body(solid=solid), upper=Body(surface=Paraboloid(radius=_RADIUS))
@@ -119,10 +119,10 @@ def waves() -> list[Point]:
     plain = {"name": "half-space", "layers": [], "rows": table["homogeneous"]}
     names = "maximum pressure", "mean gap over amplitude", "half-width"
     points = []
-    _wave_errors(_stack([], 1.0, 1.0), plain["rows"], 64)  # compiles what is compiled once
+    _wave_errors(layered([], 1.0, 1.0), plain["rows"], 64)  # compiles what is compiled once
     for case in [plain, *table["layered"]]:
         layers = [(e / (1.0 - _NU**2), h) for e, h in case["layers"]]
-        solid = _stack(layers, 1.0 - _NU**2, 1.0)
+        solid = layered(layers, 1.0 - _NU**2, 1.0)
         for n in (128, 256, 512):
             run = partial(_wave_errors, solid, case["rows"], n)
             (errors, work), seconds = timed(run, 0.0)
@@ -192,11 +192,11 @@ def readings() -> list[Point]:
 
 
 _DISTANCES = {  # from the contact, in pixels
-    "1 pixel": (1, 1),
-    "2 pixels": (2, 2),
-    "3 pixels": (3, 3),
-    "4 to 6 pixels": (4, 6),
-    "7 pixels and more": (7, math.inf),
+    "1": (1, 1),
+    "2": (2, 2),
+    "3": (3, 3),
+    "4 to 6": (4, 6),
+    "7 and more": (7, math.inf),
 }
 
 
@@ -230,9 +230,6 @@ def off_contact() -> list[Point]:
         all_errors = np.concatenate(found)
         for span, (low, high) in _DISTANCES.items():
             some = all_errors[(far > low - 0.5) & (far <= high + 0.5)]
-            span = (
-                f"{low}" if low == high else f"{low} and more" if high > 9 else f"{low} to {high}"
-            )
             error = float(np.quantile(some, 0.99))
             points.append(Point(reading, span, error, seconds[reading], {}))
     return points

@@ -16,7 +16,6 @@ from attrs import evolve
 from ..accuracy import Accuracy
 from ..analyses.load_curve import load_curve
 from ..contact.discretisation import discretisation_error
-from ..contact.effects.base import Compliance, PressureBound
 from ..contact.effects.elasticity import HalfSpace, LayeredHalfSpace
 from ..contact.effects.hardness_rules import ConstantHardness
 from ..contact.effects.plasticity import HardnessLimit
@@ -28,14 +27,15 @@ from ..planning import plan
 from ..roughness.statistics import rms_slope
 from ..scene.interface import Body, Interface
 from ..scene.loading import Pressing
-from ..scene.materials import Layer, Material, Stack
+from ..scene.materials import Material, Stack
 from ..scene.meniscus import Meniscus
 from ..scene.rough_surfaces import GaussianRoughness, SelfAffineRoughness
 from ..scene.scenes import ContactScene
 from ..scene.surfaces import realise
 from ..scene.window import Grid, Window
 from ..work_precision import Point
-from .contact import grid_sweep, solver_sweep
+from .contact import contact_alone, grid_sweep, solver_sweep
+from .layered_studies import layered
 from .timing import PRESETS, counts, run, timed
 
 if TYPE_CHECKING:
@@ -109,8 +109,7 @@ def _shipped(name: str) -> tuple[ContactScene, Accuracy]:
     """A shipped contact, compliance and hardness, and its grid."""
     path = bundled_scene(name)
     given = read_scene(read_tables(path), ContactScene, path.name)
-    kept = tuple(e for e in given.scene.effects if isinstance(e, Compliance | PressureBound))
-    return evolve(given.scene, effects=kept), given.accuracy
+    return contact_alone(given.scene), given.accuracy
 
 
 def grids() -> list[Point]:
@@ -189,7 +188,7 @@ def stacks() -> list[Point]:
     )
     bound = HardnessLimit(rule=ConstantHardness(hardness=0.05 * _MODULUS))
     for name, layers in STACKS.items():
-        solid, more = _stack(layers, width), (bound,) * name.endswith("hardness")
+        solid, more = layered(layers, _MODULUS, width), (bound,) * name.endswith("hardness")
         found = [
             _solved(_coated(solid, rough, width, pressure, more), Accuracy(grid=n))
             for rough in kinds
@@ -211,16 +210,6 @@ def _coated(
         loading=Pressing(pressure=pressure),
         effects=(LayeredHalfSpace(), *more),
     )
-
-
-def _stack(layers: tuple[tuple[float, float], ...], width: float) -> Stack:
-    """Layers of one Poisson's ratio."""
-
-    def material(ratio: float) -> Material:
-        return Material(young_modulus=ratio * _MODULUS, poisson_ratio=0.3)
-
-    made = tuple(Layer(material=material(e), thickness=h * width) for e, h in layers)
-    return Stack(layers=made, substrate=material(1.0))
 
 
 def area() -> list[Point]:

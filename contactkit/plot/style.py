@@ -172,7 +172,7 @@ def save_animation(
     path: str | Path,
     draw: Callable[[int], Sequence[Any]],
     pictures: int,
-    rate: float,
+    rate: int,
     *,
     first: Sequence[Any],
 ) -> Path:
@@ -188,7 +188,7 @@ def save_animation(
         Draws a picture by its number, and returns what it drew.
     pictures : int
         How many there are.
-    rate : float
+    rate : int
         Pictures a second.
     first : sequence
         What the figure shows already.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +11,7 @@ from ..errors import DescriptionError
 from ..extras import missing_extra
 from .arrays import read_array
 from .limits import check_limit, check_size
+from .named_files import check_digest, digest_of, existing
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -50,28 +50,16 @@ def read_coverage(path: str, checksum: str | None = None) -> Map:
     ...     read_coverage(f"{folder}/bar.npy")
     array([[0. , 1. , 0.2]])
     """
-    file = Path(path)
-    if not file.is_file():
-        raise DescriptionError("ImageFile.path", path, "be a file that exists")
+    file = existing(path, "ImageFile.path")
     size = check_size(file)
-    _check_digest(file, checksum)
+    if checksum is not None:
+        check_digest(file, digest_of(file), checksum, "ImageFile.checksum")
     if file.suffix.lower() == ".npy":
         with file.open("rb") as content:
             return _fractions(read_array(content, size, str(file)), file)
     if file.suffix.lower() == ".png":
         return _fractions(_greys(file)[::-1], file)
     raise DescriptionError("ImageFile.path", path, "end in .npy or .png")
-
-
-def _check_digest(file: Path, checksum: str | None) -> None:
-    if checksum is None:
-        return
-    with file.open("rb") as content:
-        found = hashlib.file_digest(content, "sha256").hexdigest()
-    if checksum.lower().removeprefix("sha256:") != found:
-        hint = "the file has changed since, or is another one"
-        expected = f"be that of {file.name}, {found}"
-        raise DescriptionError("ImageFile.checksum", checksum, expected, hint=hint)
 
 
 def _greys(file: Path) -> NDArray[np.uint8]:

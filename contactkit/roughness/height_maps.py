@@ -6,7 +6,6 @@ is the row y = 0. Maps are not modified: no hole is filled, nothing is interpola
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections.abc import Iterator
 from os import PathLike
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 from ..errors import DescriptionError
 from ..reading.arrays import read_array
 from ..reading.limits import check_limit, check_size
+from ..reading.named_files import check_digest, digest_of, existing
 from ..validators import LARGEST
 from .instrument_files import MATRICES, read_instrument
 from .map_fields import given_twice, length_unit, needed
@@ -254,7 +254,7 @@ def checksum(path: str | PathLike[str]) -> str:
     DescriptionError
         If there is no such file.
     """
-    return _digest(_existing(path))
+    return digest_of(existing(path, "HeightMap.path"))
 
 
 def read_height_map(
@@ -311,16 +311,11 @@ def read_height_map(
     >>> found.heights[0].tolist(), found.pixel_size, found.source
     ([0.0, 1e-09, 2e-09], (1e-06, 1e-06), 'map.csv')
     """
-    file = _existing(path)
+    file = existing(path, "HeightMap.path")
     check_size(file)
-    found = _digest(file)
-    if checksum is not None and checksum.lower().removeprefix("sha256:") != found:
-        raise DescriptionError(
-            "HeightMap.checksum",
-            checksum,
-            f"be that of {file.name}, {found}",
-            hint="the file has changed since, or is another one",
-        )
+    found = digest_of(file)
+    if checksum is not None:
+        check_digest(file, found, checksum, "HeightMap.checksum")
     size = _checked_size(pixel_size)
     ending = file.suffix.lower()
     source, is_periodic = file.name, None
@@ -347,23 +342,6 @@ def read_height_map(
             "HeightMap.pixel_size", size, f"be positive and finite in {file.name}", unit="m"
         )
     return HeightMap(checked, size, source, found, is_periodic)
-
-
-def _existing(path: str | PathLike[str]) -> Path:
-    file = Path(path)
-    try:
-        is_there = file.is_file()
-    except OSError:  # a name of too many letters
-        is_there = False
-    if not is_there:
-        hint = "" if file.is_absolute() else f"it is looked for in the working folder, {Path.cwd()}"
-        raise DescriptionError("HeightMap.path", str(path), "be a file that exists", hint=hint)
-    return file
-
-
-def _digest(file: Path) -> str:
-    with file.open("rb") as content:
-        return hashlib.file_digest(content, "sha256").hexdigest()
 
 
 def _checked_size(given: float | Pair | None) -> Pair | None:

@@ -9,15 +9,25 @@ from __future__ import annotations
 
 import abc
 import math
-import os
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
-from weakref import WeakKeyDictionary
 
 from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
+from ..reading.named_files import Contents
 from ..units import si
-from ..validators import Described, as_pair, finite, part, positive, refuse
+from ..validators import (
+    Described,
+    as_pair,
+    as_path,
+    file_name,
+    finite,
+    part,
+    positive,
+    positive_or_pair,
+    refuse,
+)
 
 if TYPE_CHECKING:
     import numpy as np
@@ -450,11 +460,6 @@ class Polygon(Planform):
         return 0.5 * abs(sum(ax * by - bx * ay for (ax, ay), (bx, by) in pairs))
 
 
-def _sizes(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    for size in value if isinstance(value, tuple) else (value,):
-        positive(owner, attribute, size)
-
-
 def _as_coverage(value: Any) -> Map:
     import numpy as np
 
@@ -466,6 +471,8 @@ def _as_coverage(value: Any) -> Map:
 @frozen(kw_only=True, eq=False)
 class Image(Planform):
     """A planform drawn as an image: the fraction of each pixel that it covers.
+
+    Beyond the image there is nothing: a shape that it is covered with up to its edge ends there.
 
     Parameters
     ----------
@@ -493,7 +500,7 @@ class Image(Planform):
         },
     )
     pixel_size: float | tuple[float, float] = field(
-        converter=as_pair, validator=_sizes, metadata=si("m")
+        converter=as_pair, validator=positive_or_pair, metadata=si("m")
     )
 
     @coverage.validator
@@ -511,19 +518,31 @@ class Image(Planform):
         size = self.pixel_size
         return size if isinstance(size, tuple) else (size, size)
 
-    def level(self, x: Any, y: Any) -> NDArray[np.float64]:
-        """See `Planform.level`: between the pixels by straight lines."""
+    @cached_property
+    def _distance(self) -> Map:
+        """Signed distance of each pixel to the rim [m], and of an empty one all around the image.
+
+        A plan asks for it on each of its grids.
+        """
         import numpy as np
-        from scipy.ndimage import map_coordinates
 
         from ..lubrication.reynolds.face import distance_of_image
 
+        return distance_of_image(np.pad(self.coverage, 1), self.pixel)
+
+    def level(self, x: Any, y: Any) -> NDArray[np.float64]:
+        """See `Planform.level`: between the pixels by straight lines; beyond them is nothing."""
+        import numpy as np
+        from scipy.ndimage import map_coordinates
+
         (dy, dx), (left, _, low, _) = self.pixel, self.bounds
-        rows, columns = np.broadcast_arrays((y - low) / dy - 0.5, (x - left) / dx - 0.5)
-        level = distance_of_image(self.coverage, self.pixel)
+        rows, columns = np.broadcast_arrays((y - low) / dy + 0.5, (x - left) / dx + 0.5)
         places = np.stack([rows.ravel(), columns.ravel()])
-        found = map_coordinates(level, places, order=1, mode="nearest")
-        return np.asarray(found, dtype=float).reshape(rows.shape)
+        last = np.reshape(self._distance.shape, (2, 1)) - 1.0
+        beyond = places - np.clip(places, 0.0, last)
+        found = map_coordinates(self._distance, places, order=1, mode="nearest")
+        away = np.hypot(dy * beyond[0], dx * beyond[1])
+        return np.asarray(found - away, dtype=float).reshape(rows.shape)
 
     @property
     def bounds(self) -> Bounds:
@@ -535,12 +554,6 @@ class Image(Planform):
     def area(self) -> float:
         """See `Planform.area`."""
         return float(self.coverage.sum()) * self.pixel[0] * self.pixel[1]
-
-
-def _as_name(value: Any) -> str:
-    if isinstance(value, str | os.PathLike):
-        return os.fsdecode(value)
-    raise DescriptionError("ImageFile.path", value, "be the name of a file")
 
 
 @frozen(kw_only=True)
@@ -564,9 +577,9 @@ class ImageFile(Planform):
 
     kind: ClassVar[str] = "image-file"
 
-    path: str = field(converter=_as_name)
+    path: str = field(converter=as_path, validator=file_name)
     pixel_size: float | tuple[float, float] = field(
-        converter=as_pair, validator=_sizes, metadata=si("m")
+        converter=as_pair, validator=positive_or_pair, metadata=si("m")
     )
     inverted: bool = field(default=False, validator=part(bool))
     checksum: str | None = None
@@ -574,16 +587,7 @@ class ImageFile(Planform):
     @property
     def image(self) -> Image:
         """The image in the file, which is read once for as long as it does not change."""
-        changed = os.stat(self.path).st_mtime_ns if os.path.exists(self.path) else 0
-        known = _IMAGES.get(self)
-        if known is None or known[0] != changed:
-            from ..reading.images import read_coverage
-
-            coverage = read_coverage(self.path, self.checksum)
-            drawn = 1.0 - coverage if self.inverted else coverage
-            _IMAGES.pop(self, None)  # so that the key is this planform, not an equal one
-            known = _IMAGES[self] = (changed, Image(coverage=drawn, pixel_size=self.pixel_size))
-        return known[1]
+        return _IMAGES.of(self)
 
     def level(self, x: Any, y: Any) -> NDArray[np.float64]:
         """See `Planform.level`; reads the file."""
@@ -600,8 +604,15 @@ class ImageFile(Planform):
         return self.image.area
 
 
-# A plan looks at an image several times; it goes with the last scene that has the planform.
-_IMAGES: WeakKeyDictionary[ImageFile, tuple[int, Image]] = WeakKeyDictionary()
+def _read(planform: ImageFile) -> Image:
+    from ..reading.images import read_coverage
+
+    coverage = read_coverage(planform.path, planform.checksum)
+    drawn = 1.0 - coverage if planform.inverted else coverage
+    return Image(coverage=drawn, pixel_size=planform.pixel_size)
+
+
+_IMAGES: Contents[ImageFile, Image] = Contents(_read)
 
 
 @frozen(kw_only=True)

@@ -6,16 +6,25 @@ All but `Heights` are recipes, made into heights on a grid when a contact is pla
 from __future__ import annotations
 
 import hashlib
-import os
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
-from weakref import WeakKeyDictionary
 
 from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
+from ..reading.named_files import Contents
 from ..units import si
-from ..validators import as_pair, as_tuple, choice, optional, part, positive, refuse
+from ..validators import (
+    as_pair,
+    as_path,
+    as_tuple,
+    choice,
+    file_name,
+    optional,
+    part,
+    positive,
+    positive_or_pair,
+    refuse,
+)
 from .surfaces import OwnGrid, ShortWave, Surface, realise, union_of
 from .window import Grid
 
@@ -40,13 +49,6 @@ def _seed(owner: object, attribute: Attribute[Any], value: Any) -> None:
         raise refuse(owner, attribute, value, "be a whole number of at least 0")
 
 
-def _length_or_pair(owner: object, attribute: Attribute[Any], value: Any) -> None:
-    for item in value if isinstance(value, tuple) else (value,):
-        positive(owner, attribute, item)
-    if isinstance(value, tuple) and len(value) != 2:
-        raise refuse(owner, attribute, value, "be one length or a pair (along y, along x)")
-
-
 @frozen(kw_only=True)
 class GaussianRoughness(Surface):
     """Gaussian heights with the exponential autocorrelation of Eq. (2.42).
@@ -69,7 +71,7 @@ class GaussianRoughness(Surface):
 
     rms: float = field(validator=positive, metadata=si("m"))
     correlation_length: float | tuple[float, float] = field(
-        converter=as_pair, validator=_length_or_pair, metadata=si("m")
+        converter=as_pair, validator=positive_or_pair, metadata=si("m")
     )
     cutoff: float = field(validator=positive, metadata=si("m"))
     seed: int = field(default=1, validator=_seed, metadata=si("-"))
@@ -139,12 +141,6 @@ class SelfAffineRoughness(Surface):
         return self_affine(grid.shape, grid.pixel_size, self.rms, spectrum, self.seed)
 
 
-def _as_path(value: Any) -> str:
-    if isinstance(value, str | os.PathLike):
-        return os.fsdecode(value)
-    raise DescriptionError("Measured.path", value, "be the name of a file")
-
-
 @frozen(kw_only=True)
 class Measured(Surface):
     """A height map from a file: npy, columns of text, ISO 25178-71 as text, formats of instruments.
@@ -171,9 +167,9 @@ class Measured(Surface):
 
     kind: ClassVar[str] = "measured"
 
-    path: str = field(converter=_as_path)
+    path: str = field(converter=as_path, validator=file_name)
     pixel_size: float | tuple[float, float] | None = field(
-        default=None, converter=as_pair, validator=optional(_length_or_pair), metadata=si("m")
+        default=None, converter=as_pair, validator=optional(positive_or_pair), metadata=si("m")
     )
     unit: str | None = None
     detrend: Literal["tilt", "none", "mean", "curvature"] = field(
@@ -186,37 +182,21 @@ class Measured(Surface):
     @property
     def own_grids(self) -> frozenset[OwnGrid]:
         """See `Surface.own_grids`; reads the file."""
-        return _of_file(self).own_grids
+        return _FILES.of(self).own_grids
 
     @property
     def isolated_maps(self) -> tuple[str, ...]:
         """See `Surface.isolated_maps`; reads the file."""
-        return (self.path,) if _of_file(self).is_periodic is False else ()
+        return (self.path,) if _FILES.of(self).is_periodic is False else ()
 
     @property
     def periodic_maps(self) -> tuple[str, ...]:
         """See `Surface.periodic_maps`; reads the file."""
-        return (self.path,) if _of_file(self).is_periodic else ()
+        return (self.path,) if _FILES.of(self).is_periodic else ()
 
     def heights_on(self, grid: Grid) -> Map:
         """See `Surface.heights_on`; reads the file."""
-        return _of_file(self).heights_on(grid)
-
-
-# A plan looks at a map several times. One of 4096 x 4096 pixels takes 134 MB: it goes with the last
-# scene that has the surface.
-_FILES: WeakKeyDictionary[Measured, tuple[int, Heights]] = WeakKeyDictionary()
-
-
-def _of_file(surface: Measured) -> Heights:
-    """Heights of a map; its file is read once for as long as it does not change."""
-    path = Path(surface.path)
-    changed = path.stat().st_mtime_ns if path.exists() else 0
-    known = _FILES.get(surface)
-    if known is None or known[0] != changed:
-        _FILES.pop(surface, None)  # so that the key is this surface, not an equal one
-        known = _FILES[surface] = (changed, _read(surface))
-    return known[1]
+        return _FILES.of(self).heights_on(grid)
 
 
 def _read(surface: Measured) -> Heights:
@@ -234,6 +214,11 @@ def _read(surface: Measured) -> Heights:
         pixel_size=found.pixel_size,
         is_periodic=found.is_periodic if surface.is_periodic is None else surface.is_periodic,
     )
+
+
+# A plan looks at a map several times. One of 4096 x 4096 pixels takes 134 MB: it goes with the last
+# scene that has the surface.
+_FILES: Contents[Measured, Heights] = Contents(_read)
 
 
 def _as_map(value: Any) -> Map:
@@ -316,7 +301,7 @@ class Heights(Surface):
         },
     )
     pixel_size: float | tuple[float, float] = field(
-        converter=as_pair, validator=_length_or_pair, metadata=si("m")
+        converter=as_pair, validator=positive_or_pair, metadata=si("m")
     )
     is_periodic: bool | None = field(default=None, validator=optional(part(bool)))
     holes: Mask | None = field(

@@ -406,11 +406,15 @@ class Flat(Surface):
         return self.planform if self.radius is None else Disc(radius=self.radius)
 
     @property
+    def is_level(self) -> bool:
+        """Whether it has one height everywhere, holes and fine roughness apart."""
+        is_plane = self.tilt == (0.0, 0.0) and self.crown_radius is None
+        return is_plane and self.relief is None and not self.recesses
+
+    @property
     def is_even(self) -> bool:
         """Whether it has one height everywhere, no roughness, and no hole."""
-        is_level = self.tilt == (0.0, 0.0) and self.crown_radius is None and self.relief is None
-        is_smooth = self.roughness is None
-        return is_level and is_smooth and not self.holes and not self.recesses
+        return self.is_level and self.roughness is None and not self.holes
 
     @property
     def is_disc(self) -> bool:

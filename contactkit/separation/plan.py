@@ -410,17 +410,16 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
 
 def _as_it_moves(prepared: PreparedScene[SeparationScene], film: Film) -> Film:
     """Film along the imposed motion: with the volume it has left, where an effect takes some."""
-    for effect in effects_of(prepared.scene):
-        if not isinstance(effect, VolumeLoss):
-            continue
-        from .wetting.losing_film import losing_film, volume_nodes
+    effect = prepared.scene.effect(VolumeLoss)
+    if effect is None:
+        return film
+    from .wetting.losing_film import losing_film, volume_nodes
 
-        fraction = effect.volume_fraction(prepared)
-        last = min(prepared.scene.loading.final_gap, film.end)
-        nodes = volume_nodes(fraction(last))
-        films = [_film(with_fraction(prepared, node)) for node in nodes]
-        return losing_film(film, films, fraction, last)
-    return film
+    fraction = effect.volume_fraction(prepared)
+    last = min(prepared.scene.loading.final_gap, film.end)
+    nodes = volume_nodes(fraction(last))
+    films = [_film(with_fraction(prepared, node)) for node in nodes]
+    return losing_film(film, films, fraction, last)
 
 
 _RATES = {"none": "not depend on the speed", "proportional": "be proportional to the speed"}

@@ -23,8 +23,8 @@ DISTANCE, MEASURED = (np.array(OPENING[key]) for key in ("d_over_r", "force_N"))
 NEAR, FAR = DISTANCE < 0.055, DISTANCE > 0.11
 
 
-def computed(distance, speed):
-    """Capillary and viscous force [N] at distances over R, through a scene."""
+def spheres(first, last, speed, *effects):
+    """The spheres and their oil, over distances over R at a speed [m/s]."""
     oil = ck.Liquid(
         name="silicone oil",
         viscosity=OPENING["viscosity_Pas"],
@@ -33,12 +33,16 @@ def computed(distance, speed):
     )
     ball = ck.Body(surface=ck.Sphere(radius=RADIUS))
     film = ck.Meniscus(liquid=oil, volume=VOLUME, contact_angle_lower=0.0, contact_angle_upper=0.0)
-    ends = {"initial_gap": distance[0] * RADIUS, "final_gap": distance[-1] * RADIUS}
-    scene = ck.SeparationScene(
+    return ck.SeparationScene(
         interface=ck.Interface(lower=ball, upper=ball, meniscus=film),
-        loading=ck.ImposedSpeed(speed=speed, **ends),
-        effects=(ck.MeniscusForce(), ck.ViscousForce()),
+        loading=ck.ImposedSpeed(speed=speed, initial_gap=first * RADIUS, final_gap=last * RADIUS),
+        effects=effects,
     )
+
+
+def computed(distance, speed):
+    """Capillary and viscous force [N] at distances over R, through a scene."""
+    scene = spheres(distance[0], distance[-1], speed, ck.MeniscusForce(), ck.ViscousForce())
     with pytest.warns(ck.ValidityWarning, match="weight of the meniscus"):
         found = ck.simulate(ck.plan(scene))
     at = np.argsort(found.gap)
@@ -81,17 +85,9 @@ def test_far_off_the_weight_of_the_liquid_counts():
 @pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 def test_with_film_weight_and_column_half_the_error_is_left():
     """At 10 um/s: 0.29 mm3 stay on the spheres; the lower one is pulled by half the weight less."""
-    balls = ck.Sphere(radius=RADIUS)
-    keys = {"viscosity": "viscosity_Pas", "surface_tension": "surface_tension_N_m"}
-    oil = ck.Liquid(name="oil", density=965.0, **{k: OPENING[v] for k, v in keys.items()})
-    film = ck.Meniscus(liquid=oil, volume=VOLUME, contact_angle_lower=0.0, contact_angle_upper=0.0)
-    ends = {"initial_gap": DISTANCE[0] * RADIUS, "final_gap": DISTANCE[-1] * RADIUS}
     wetting = ck.LandauLevichFilm(), ck.LiquidWeight(body="lower"), ck.TroutonForce()
-    scene = ck.SeparationScene(
-        interface=ck.Interface(lower=balls, upper=balls, meniscus=film),
-        loading=ck.ImposedSpeed(speed=1e-5, **ends),
-        effects=(ck.MeniscusForce(), ck.ViscousForce(), *wetting),
-    )
+    effects = ck.MeniscusForce(), ck.ViscousForce(), *wetting
+    scene = spheres(DISTANCE[0], DISTANCE[-1], 1e-5, *effects)
     found = ck.simulate(ck.plan(scene))
     force = np.interp(DISTANCE * RADIUS, found.gap, found.pull)
     assert found["deposited_volume"][-1] == pytest.approx(0.287e-9, rel=0.01)
@@ -116,20 +112,9 @@ def test_a_closing_bridge_attracts_too_much():
 @pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 def test_viscosity_and_rate_are_known_by_their_product_and_the_model_misses():
     """Fitted together the points decide 2.5 times the quoted product, and reject the model."""
-    oil = ck.Liquid(
-        name="silicone oil",
-        viscosity=OPENING["viscosity_Pas"],
-        surface_tension=OPENING["surface_tension_N_m"],
-        density=OPENING["density_kg_m3"],
-    )
-    ball = ck.Body(surface=ck.Sphere(radius=RADIUS))
-    film = ck.Meniscus(liquid=oil, volume=VOLUME, contact_angle_lower=0.0, contact_angle_upper=0.0)
-    ends = {"initial_gap": 0.9 * DISTANCE[0] * RADIUS, "final_gap": 1.1 * DISTANCE[-1] * RADIUS}
-    scene = ck.SeparationScene(
-        interface=ck.Interface(lower=ball, upper=ball, meniscus=film),
-        loading=ck.ImposedSpeed(speed=OPENING["gap_rate_m_s"], **ends),
-        effects=(ck.MeniscusForce(profile="arc"), ck.ViscousForce()),
-    )
+    effects = ck.MeniscusForce(profile="arc"), ck.ViscousForce()
+    ends = 0.9 * DISTANCE[0], 1.1 * DISTANCE[-1]
+    scene = spheres(*ends, OPENING["gap_rate_m_s"], *effects)
     curve = ck.MeasuredCurve(
         over="gap",
         at=DISTANCE * RADIUS,

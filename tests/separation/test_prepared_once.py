@@ -8,10 +8,12 @@ import pytest
 
 import contactkit as ck
 from contactkit.capillary import kelvin
+from contactkit.lubrication.reynolds import face as film_face
 from contactkit.roughness import height_maps
 from contactkit.scene import rough_surfaces
 from contactkit.separation import prescribed
 from contactkit.separation.film import Film
+from contactkit.separation.wetting import line
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -104,3 +106,33 @@ def test_a_map_is_read_once_in_a_plan_and_goes_with_its_scene(counted, tmp_path)
     del surface, upper, interface, scene, result, again
     gc.collect()
     assert len(rough_surfaces._FILES) == 0
+
+
+def test_the_rim_of_an_image_is_found_once_for_all_grids_of_a_plan(counted):
+    found = counted(film_face, "distance_of_image")
+    drawn = ck.Image(coverage=np.ones((16, 16)), pixel_size=1e-4)
+    scene = ck.SeparationScene(
+        interface=ck.Interface(
+            upper=ck.Flat(planform=drawn, tilt=(1e-4, 0.0)),
+            meniscus=ck.Meniscus(liquid=ck.Liquid(name="oil", viscosity=0.1)),
+        ),
+        loading=ck.ImposedForce(force=1.0, mass=1e-3, initial_gap=5e-6, final_gap=2e-5),
+        effects=(ck.ViscousForce(),),
+    )
+    ck.plan(scene, ck.Accuracy(film_rtol=2e-2))
+    assert len(found) == 1
+
+
+def test_contact_lines_are_solved_once_for_plan_ranges_and_curves():
+    oil = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.02)
+    bodies = {"lower": ck.Flat(), "upper": ck.Sphere(radius=4e-3)}
+    film = ck.Meniscus(liquid=oil, volume=1e-9, contact_angle_lower=0.7, contact_angle_upper=0.7)
+    scene = ck.SeparationScene(
+        interface=ck.Interface(**bodies, meniscus=film),
+        loading=ck.ImposedSpeed(speed=1e-4, initial_gap=5e-5, final_gap=4e-4),
+        effects=(ck.MeniscusForce(), ck.CoxVoinovAngle()),
+    )
+    before = line._curves.cache_info().misses
+    found = ck.simulate(ck.plan(scene))
+    assert found["dynamic_angle_lower"][0] < 0.7
+    assert line._curves.cache_info().misses == before + 1

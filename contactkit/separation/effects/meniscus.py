@@ -14,7 +14,7 @@ from ...lubrication import dimensionless as numbers
 from ...scene.column import Column
 from ...validators import Described, choice
 from ...validity import ValidityNumber
-from .base import ForceLaw, MovingAngle, RunCurves, SeparationForce, effects_of
+from .base import ForceLaw, MovingAngle, RunCurves, SeparationForce
 from .film_shape import needs_extent
 from .meniscus_flat import arc_law, exact_law, printed_law, printed_radius
 from .meniscus_shape import SHAPE_COLUMNS, shape_curves
@@ -188,11 +188,8 @@ class MeniscusForce(SeparationForce):
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         """See `SeparationForce.prepare`: with a contact angle that moves, where one is listed."""
-        law = self._at_rest(prepared)
-        for effect in effects_of(prepared.scene):
-            if isinstance(effect, MovingAngle):
-                law = effect.meniscus_law(prepared, law)
-        return law
+        law, moving = self._at_rest(prepared), prepared.scene.effect(MovingAngle)
+        return law if moving is None else moving.meniscus_law(prepared, law)
 
     def _at_rest(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         if not prepared.scene.interface.is_flat:

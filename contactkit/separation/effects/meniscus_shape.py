@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ...errors import ConvergenceError
 from ...scene.column import Column
-from .base import MovingAngle, effects_of
+from .base import MovingAngle
 from .prepared import with_fraction
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ def _moved(run: RunCurves) -> _Moved | None:
     import numpy as np
 
     plan = run.plan
-    moving = next((e for e in effects_of(plan.scene) if isinstance(e, MovingAngle)), None)
+    moving = plan.scene.effect(MovingAngle)
     if moving is None and plan.film.volume_fraction is None:
         return None
     volume = plan.prepared.film.volume * run.volume_fraction[run.whole]

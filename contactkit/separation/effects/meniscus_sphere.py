@@ -22,7 +22,15 @@ if TYPE_CHECKING:
     from .film_shape import FilmShape
     from .prepared import PreparedScene
 
-__all__ = ["Bridges", "bridge_curve", "contact_radius", "exact_end", "printed_neck", "sphere_law"]
+__all__ = [
+    "Bridges",
+    "bridge_curve",
+    "contact_radius",
+    "exact_end",
+    "printed_neck",
+    "sphere_law",
+    "thin_gap",
+]
 
 _DEGREES = 24, 48, 96  # of the polynomials
 _CLOSE = 1e-3  # of a curve, a stretch at its end that is not divided further
@@ -70,7 +78,7 @@ def _fixed(prepared: PreparedScene[SeparationScene]) -> tuple[float, float, floa
 
 
 def exact_end(prepared: PreparedScene[SeparationScene]) -> float:
-    """Gap [m] at which the exact bridge on a sphere ends."""
+    """Gap [m] at which the exact bridge ends: on a sphere, and a free one between flats."""
     pressure, fixed = prepared.liquid_pressure, _fixed(prepared)
     if pressure is not None:
         from ...capillary.exact.at_pressure import max_gap_at_pressure
@@ -110,7 +118,7 @@ def _exact(prepared: PreparedScene[SeparationScene]) -> Bridges:
         from ...capillary.exact.bridge import bridge
 
         return Bridges(
-            lambda gap: bridge(gap, film.volume, *fixed, beyond="nan").force, end, _thin(film)
+            lambda gap: bridge(gap, film.volume, *fixed, beyond="nan").force, end, thin_gap(film)
         )
     from ...capillary.exact.at_pressure import bridge_at_pressure
 
@@ -126,7 +134,7 @@ def _arcs(prepared: PreparedScene[SeparationScene]) -> Bridges:
     volume, fixed = prepared.film.volume, _fixed(prepared)
     end = float(arc_sphere.zero_neck_gap(volume, *fixed))
     return Bridges(
-        lambda gap: arc_sphere.solve(gap, volume, *fixed).force, end, _thin(prepared.film)
+        lambda gap: arc_sphere.solve(gap, volume, *fixed).force, end, thin_gap(prepared.film)
     )
 
 
@@ -152,7 +160,7 @@ def _printed(prepared: PreparedScene[SeparationScene]) -> Bridges:
         inverse = (math.cos(lower) + math.cos(upper + slope)) / (gap + 0.5 * bend * x * x)
         return float(meniscus_of_circle_3_12(x, slope, inverse, upper))
 
-    return Bridges(circle, end, _thin(prepared.film), force, poles)
+    return Bridges(circle, end, thin_gap(prepared.film), force, poles)
 
 
 def printed_neck(prepared: PreparedScene[SeparationScene], gaps: Sequence[float]) -> Floats:
@@ -206,8 +214,8 @@ def _poles(prepared: PreparedScene[SeparationScene], end: float) -> tuple[float,
     return tuple(found)
 
 
-def _thin(film: FilmShape) -> float:
-    """A tenth of the height of the film [m]: where the gap is smaller, little depends on it."""
+def thin_gap(film: FilmShape) -> float:
+    """A tenth of the height of the film [m]: below, little depends on the gap; 0 between flats."""
     return 0.1 * math.sqrt(film.volume / (math.pi * film.sphere_radius))
 
 

@@ -15,7 +15,6 @@ from ...lubrication import squeeze_film as squeeze
 from ...scene.column import Column
 from ...scene.loading import ImposedForce, ImposedTime
 from ...scene.scenes import SlidingScene
-from ...scene.surfaces import Flat
 from ...units import si
 from ...validators import choice, finite, optional, positive
 from ...validity import ValidityNumber
@@ -256,7 +255,7 @@ def _needs_of_face(scene: SeparationScene) -> tuple[str, ...]:
     faces = scene.interface.faces
     rough = [face for face in faces if face.roughness is not None]
     cure = ' (or cavity="truncated")' if scene.interface.has_discs else ""
-    is_fine = not rough or (len(rough) == 1 and not any(map(_is_uneven, faces)))
+    is_fine = not rough or (len(rough) == 1 and all(face.is_level for face in faces))
     needs = {
         f"a Flat with a radius [m] or a planform, up to whose rim a cavity is followed{cure}": any(
             face.outline is not None for face in faces
@@ -273,12 +272,6 @@ def _needs_of_face(scene: SeparationScene) -> tuple[str, ...]:
         or not viscous.takes_printed(),
     }
     return tuple(need for need, is_met in needs.items() if not is_met)
-
-
-def _is_uneven(face: Flat) -> bool:
-    """Whether a face has more than one height, its fine roughness apart."""
-    is_level = face.tilt == (0.0, 0.0) and face.crown_radius is None
-    return not is_level or face.relief is not None or bool(face.recesses)
 
 
 def _face_law(film: FaceFilm, viscosity: float) -> ForceLaw:

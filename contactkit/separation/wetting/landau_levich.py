@@ -15,7 +15,7 @@ from ...scene.column import Column
 from ...scene.loading import ImposedSpeed
 from ...validators import choice
 from ...validity import ValidityNumber
-from ..effects.base import MovingAngle, RunCurves, VolumeLoss, effects_of
+from ..effects.base import MovingAngle, RunCurves, VolumeLoss
 from ..effects.prepared import with_fraction
 from .cox_voinov import capillary_number
 from .line import LEAST_LEFT, Line, Lines, line_needs
@@ -107,8 +107,7 @@ class LandauLevichFilm(VolumeLoss):
 
         missing, meniscus = line_needs(scene), scene.meniscus
         angles = meniscus.contact_angle_lower, meniscus.contact_angle_upper
-        moves = any(isinstance(effect, MovingAngle) for effect in scene.effects)
-        if min(angles) > 0.0 and not moves:
+        if min(angles) > 0.0 and scene.effect(MovingAngle) is None:
             missing += (
                 "a contact angle of 0 on one of the bodies, or CoxVoinovAngle() beside it: a line "
                 "that recedes with an angle leaves no film",
@@ -192,7 +191,7 @@ class _Rate:
         self._nodes = volume_nodes(LEAST_LEFT)
         scenes = [with_fraction(prepared, node) for node in self._nodes]
         self._lines = [Lines(one) for one in scenes]
-        moving = next((e for e in effects_of(prepared.scene) if isinstance(e, MovingAngle)), None)
+        moving = prepared.scene.effect(MovingAngle)
         # Of the whole volume, at the same gap over its end: lines of similar bridges are as fast.
         self._angles = None if moving is None else moving.prepare_angles(prepared)
 

@@ -10,18 +10,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...numerics.cubic_spline import cubic_spline
 from ...scene.loading import ImposedSpeed
 from ..effects.base import VolumeLoss
 from ..effects.meniscus import MeniscusForce
+from ..effects.meniscus_sphere import exact_end, thin_gap
 from ..effects.viscous import keeps_radius
 
 if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene
-    from ..effects.prepared import PreparedScene
+    from ..effects.prepared import Angles, Curvatures, PreparedScene
 
     Curve = Callable[[float], tuple[float, float]]
 
@@ -30,6 +31,7 @@ __all__ = ["LEAST_LEFT", "BridgeAxis", "Line", "Lines", "line_needs", "rim_needs
 _POINTS = 161  # of a curve: radii and pressure right to 1e-6, their slopes to 1e-5
 LEAST_LEFT = 0.3
 """Least volume over that of the scene: of five volumes from there on lines are right to 1e-4."""
+_KEPT = 16  # bridges whose curves are kept: plan, ranges and late curves ask for five volumes each
 _JUST_BELOW = 1.0 - 1e-6  # of the end, at which a bridge has no slope
 # Of the end, from where on the speed of a line stays: in equilibrium it is infinite at the fold,
 # which no line follows.
@@ -82,37 +84,22 @@ class BridgeAxis(NamedTuple):
 class Lines:
     """Contact lines of the exact bridge of a prepared scene, over the gap."""
 
-    def __init__(
-        self, prepared: PreparedScene[SeparationScene], first: float | None = None
-    ) -> None:
+    def __init__(self, prepared: PreparedScene[SeparationScene]) -> None:
         self._prepared = prepared
-        self._first = first
 
     @cached_property
     def axis(self) -> BridgeAxis:
         """Gaps that the bridge spans, from the first one of the motion."""
-        from ...capillary.exact.stability import stability_limit
-
-        film, prepared = self._prepared.film, self._prepared
-        end = float(stability_limit(film.volume, *prepared.angles, *prepared.curvatures).gap)
+        prepared = self._prepared
+        end = exact_end(prepared)
         first = min(_first_gap(prepared), 0.5 * end)
-        if math.isinf(film.sphere_radius):
-            return BridgeAxis(first, end, 0.0)
-        thin = 0.1 * math.sqrt(film.volume / (math.pi * film.sphere_radius))
-        return BridgeAxis(first, end, thin)
+        return BridgeAxis(first, end, thin_gap(prepared.film))
 
     @cached_property
     def _curves(self) -> tuple[Curve, Curve, Curve]:
         """Radii of both circles [m] and pressure over tension [1/m], over the axis."""
-        from ...capillary.exact.bridge import bridge
-
         prepared = self._prepared
-        places, gaps = self.axis.gaps(_POINTS)
-        fixed = (*prepared.angles, *prepared.curvatures)
-        found = bridge(gaps, prepared.film.volume, *fixed)
-        columns = found.radius_lower, found.radius_upper, found.pressure
-        lower, upper, pressure = (cubic_spline(places, column.tolist()) for column in columns)
-        return lower, upper, pressure
+        return _curves(self.axis, prepared.film.volume, prepared.angles, prepared.curvatures)
 
     def at(self, gap: float) -> tuple[Line, Line]:
         """Line on the lower and on the upper body at a gap [m]."""
@@ -132,9 +119,22 @@ class Lines:
         return found[0], found[1]
 
 
+@lru_cache(maxsize=_KEPT)
+def _curves(
+    axis: BridgeAxis, volume: float, angles: Angles, curvatures: Curvatures
+) -> tuple[Curve, Curve, Curve]:
+    from ...capillary.exact.bridge import bridge
+
+    places, gaps = axis.gaps(_POINTS)
+    found = bridge(gaps, volume, *angles, *curvatures)
+    columns = found.radius_lower, found.radius_upper, found.pressure
+    lower, upper, pressure = (cubic_spline(places, column.tolist()) for column in columns)
+    return lower, upper, pressure
+
+
 def _first_gap(prepared: PreparedScene[SeparationScene]) -> float:
     """Smallest gap [m] that is asked for: films of less volume are taken at smaller gaps."""
-    loses = any(isinstance(effect, VolumeLoss) for effect in prepared.scene.effects)
+    loses = prepared.scene.effect(VolumeLoss) is not None
     return prepared.scene.loading.initial_gap * (math.cbrt(LEAST_LEFT) if loses else 1.0)
 
 

@@ -14,6 +14,8 @@ from ...units import si
 from ...validators import non_negative, positive
 from ...validity import ValidityNumber
 from ..effects.base import FilmEnd
+from ..effects.meniscus_sphere import exact_end
+from .cox_voinov import capillary_number
 from .line import line_needs
 
 if TYPE_CHECKING:
@@ -71,18 +73,14 @@ class DynamicRupture(FilmEnd):
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> float:
         """See `FilmEnd.prepare`."""
-        from ...capillary.exact.stability import stability_limit
-
-        ca = _capillary_number(prepared)
+        ca = capillary_number(prepared, _speed(prepared))
         if ca > _FASTEST:
             raise InfeasibleError(
                 f"DynamicRupture: the capillary number eta h'/gamma is {ca:.3g} at "
                 f"{_speed(prepared):g} m/s, and the law is known up to {_FASTEST:g}; give a lower "
                 "loading.speed, or Rupture(gap=...) with a measured distance"
             )
-        fixed = (*prepared.angles, *prepared.curvatures)
-        at_rest = float(stability_limit(prepared.film.volume, *fixed).gap)
-        return at_rest * (1.0 + self.factor * math.pow(ca, self.exponent))
+        return exact_end(prepared) * (1.0 + self.factor * math.pow(ca, self.exponent))
 
     def validity(
         self, plan: PlanView, path: Sequence[tuple[float, float]]
@@ -91,7 +89,7 @@ class DynamicRupture(FilmEnd):
         return (
             ValidityNumber(
                 name="capillary number of the opening",
-                value=_capillary_number(plan.prepared),
+                value=capillary_number(plan.prepared, _speed(plan.prepared)),
                 high=_FAST,
                 detail="the law of the rupture distance is an observation at slow openings",
                 source="eta h'/gamma",
@@ -103,8 +101,3 @@ def _speed(prepared: PreparedScene[SeparationScene]) -> float:
     loading = prepared.scene.loading
     assert isinstance(loading, ImposedSpeed)
     return loading.speed
-
-
-def _capillary_number(prepared: PreparedScene[SeparationScene]) -> float:
-    liquid = prepared.liquid
-    return float(liquid.viscosity * _speed(prepared) / liquid.surface_tension)

@@ -15,6 +15,7 @@ from ...validators import choice
 from ...validity import ValidityNumber
 from ..effects.base import ForceLaw, SeparationForce
 from ..effects.meniscus import MeniscusForce
+from ..effects.meniscus_sphere import exact_end
 from .line import rim_needs
 
 if TYPE_CHECKING:
@@ -120,11 +121,10 @@ def _bond(prepared: PreparedScene[SeparationScene]) -> float:
 
 def _share(prepared: PreparedScene[SeparationScene]) -> tuple[Callable[[float], float], float]:
     """Fraction of the weight on the upper body over the gap [m], and where the bridge ends [m]."""
-    from ...capillary.exact.stability import stability_limit
     from ...capillary.wetting.weight import upper_share
 
     volume, angles, curvatures = prepared.film.volume, prepared.angles, prepared.curvatures
-    end = float(stability_limit(volume, *angles, *curvatures).gap)
+    end = exact_end(prepared)
     gaps, shares = upper_share(volume, angles, curvatures, end)
     if len(gaps) == 2:
         return (lambda gap: 0.5), end

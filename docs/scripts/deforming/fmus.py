@@ -48,11 +48,8 @@ def pull(beta: float) -> ck.SeparationScene:
     )
 
 
-def forces(scene: ck.SeparationScene, rtol: float | None, times: np.ndarray) -> tuple:
-    """Forces of the FMU [N], and its seconds of CPU for each step of the host."""
-    folder = Path(tempfile.mkdtemp(prefix="contactkit-"))
-    more = {"platforms": [local()], "film_rtol": rtol}
-    fmu = build_native(scene, folder / "film.fmu", model="stiction-force", **more)
+def forces(fmu: Path, times: np.ndarray) -> tuple[np.ndarray, float]:
+    """Forces of an FMU [N], and its seconds of CPU for each step of the host."""
     with Instance(fmu) as one:
         one.start({}, float(times[-1]))
         inputs, output, found = one.references("h", "v"), one.references("F"), []
@@ -75,8 +72,11 @@ def exactness() -> str:
         stated = exactness_of(scene, rtol)
         found = ck.simulate(ck.plan(scene, ck.Accuracy(film_rtol=4e-6)))
         times = np.linspace(0.0, float(found["time"][-1]), STEPS + 1)
-        _, cost = forces(scene, rtol, times)
-        own, _ = forces(scene, rtol, np.array(found["time"]))
+        with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
+            more = {"platforms": [local()], "film_rtol": rtol}
+            fmu = build_native(scene, Path(folder) / "film.fmu", model="stiction-force", **more)
+            _, cost = forces(fmu, times)
+            own, _ = forces(fmu, np.array(found["time"]))
         largest = float(found["pull"].max())
         error = np.abs(own - found["pull"][1:]) / largest
         late = found["time"][1:] > 0.25 * GAP / SPEED

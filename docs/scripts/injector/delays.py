@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from validation_tables import grid
 
@@ -44,18 +45,8 @@ def oils_table() -> str:
 
 def strength_table() -> str:
     """Release delay over the strength: cavities of vapour, and oils that sustain their strength."""
-    injector = open_scene("fuel-injector").scene
-    rows = []
-    for strength in (1.02, 3.0, 5.0, 10.0, 12.0, 13.0, 15.0, 20.0, 24.0, 25.5, 26.0, 28.0):
-        cells = [
-            _milliseconds(delay(injector, t, strength=strength * 1e5, cavity_pressure=pressure))
-            for pressure in (0.0, -math.inf)
-            for t in injector.study.temperatures
-        ]
-        rows.append([f"{strength:g} bar", *cells])
-    degrees = [f"{t - celsius(0.0):.0f} degC" for t in injector.study.temperatures]
-    head = [f"{oil}, {one} [ms]" for oil in ("vapour", "sustains it") for one in degrees]
-    return grid(["strength", *head], rows)
+    strengths = (1.02, 3.0, 5.0, 10.0, 12.0, 13.0, 15.0, 20.0, 24.0, 25.5, 26.0, 28.0)
+    return _over_pressure("strength", "strength", strengths)
 
 
 def cavity_table() -> str:
@@ -76,20 +67,24 @@ def cavity_table() -> str:
 
 def pressure_table() -> str:
     """Release delay over the pressure around the face, of an oil that cavitates at -9 bar."""
+    around = (1.01325, 2.0, 3.0, 5.0, 10.0, 12.0, 13.0, 14.0, 15.0, 17.0, 20.0)
+    return _over_pressure("pressure around the face", "ambient_pressure", around)
+
+
+def _over_pressure(title: str, name: str, values: Sequence[float]) -> str:
+    """Release delay over a pressure of `delay` [bar], for vapour and oils that sustain."""
     injector = open_scene("fuel-injector").scene
     rows = []
-    for around in (1.01325, 2.0, 3.0, 5.0, 10.0, 12.0, 13.0, 14.0, 15.0, 17.0, 20.0):
+    for value in values:
         cells = [
-            _milliseconds(
-                delay(injector, t, ambient_pressure=around * 1e5, cavity_pressure=pressure)
-            )
+            _milliseconds(delay(injector, t, cavity_pressure=pressure, **{name: value * 1e5}))
             for pressure in (0.0, -math.inf)
             for t in injector.study.temperatures
         ]
-        rows.append([f"{around:g} bar", *cells])
-    degrees = [f"{t - celsius(0.0):.0f} degC" for t in injector.study.temperatures]
-    head = [f"{oil}, {one} [ms]" for oil in ("vapour", "sustains it") for one in degrees]
-    return grid(["pressure around the face", *head], rows)
+        rows.append([f"{value:g} bar", *cells])
+    degrees = _degrees(injector)
+    head = [f"{oil}, {one}" for oil in ("vapour", "sustains it") for one in degrees]
+    return grid([title, *head], rows)
 
 
 def closing_table() -> str:

@@ -276,6 +276,28 @@ def test_a_file_that_holds_no_image_is_refused(tmp_path, name, content, message)
     np.save(tmp_path / "ones.npy", np.ones((2, 2)))
     with pytest.raises(ck.DescriptionError, match="checksum"):
         _ = ck.ImageFile(path=tmp_path / "ones.npy", pixel_size=1e-6, checksum="0" * 64).area
+    with pytest.raises(ck.DescriptionError, match="be a file that exists"):
+        _ = ck.ImageFile(path="a" * 5000, pixel_size=1e-6).area
+
+
+def test_an_image_that_is_covered_up_to_its_edge_ends_there():
+    """The film used to go on to the edge of the grid: a quarter more force, without a word."""
+    bar = np.zeros((40, 60))
+    bar[10:30] = 1.0
+    whole = np.ones((20, 60))
+    exact = force(ck.Flat(planform=ck.Rectangle(length=6e-3, width=2e-3)))
+    for drawn in (bar, whole):
+        image = ck.Image(coverage=drawn, pixel_size=1e-4)
+        assert force(ck.Flat(planform=image)) == pytest.approx(exact, rel=2e-3)
+        assert float(image.level(3e-3, 0.0)) == pytest.approx(0.0, abs=1e-12)
+        assert float(image.level(4e-3, 0.0)) == pytest.approx(-1e-3)
+
+
+def test_a_pixel_of_three_sizes_is_refused():
+    """The area used to be that of the first two."""
+    for kind, where in ((ck.Image, {"coverage": np.ones((2, 2))}), (ck.ImageFile, {"path": "a"})):
+        with pytest.raises(ck.DescriptionError, match=r"pixel_size must be one length or a pair"):
+            kind(pixel_size=(1e-6, 1e-6, 1e-6), **where)
 
 
 # Cavities under a sphere on a face ----------------------------------------------------------------
