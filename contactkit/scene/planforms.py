@@ -519,7 +519,7 @@ class Image(Planform):
         return size if isinstance(size, tuple) else (size, size)
 
     @cached_property
-    def _distance(self) -> Map:
+    def _distance(self) -> NDArray[np.floating[Any]]:
         """Signed distance of each pixel to the rim [m], and of an empty one all around the image.
 
         A plan asks for it on each of its grids.

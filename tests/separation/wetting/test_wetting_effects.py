@@ -16,6 +16,8 @@ from contactkit.capillary.exact.stability import stability_limit
 from contactkit.capillary.wetting.cox_voinov import dynamic_angle
 from contactkit.files.scenes import load_scene, save_scene
 from contactkit.lubrication.dimensionless import GRAVITY
+from contactkit.separation.wetting.line import LEAST_LEFT
+from contactkit.separation.wetting.losing_film import volume_nodes
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -259,6 +261,29 @@ def test_a_line_at_rest_leaves_nothing_and_changes_no_bit():
         one, other = (np.interp(gaps, r.gap, r[name]) for r in (found, still))
         assert one == pytest.approx(other, rel=1e-8)
     assert found.plan.film.end == pytest.approx(still.plan.film.end, rel=1e-11)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("angle", [0.0, 0.8])
+def test_contact_lines_of_equal_bridges_are_solved_once(monkeypatch, angle):
+    """The plan, its ranges, the motion and the late curves ask for the lines of five volumes."""
+    solved = []
+
+    def counted(gaps, volume, lower, upper, *curvatures, **more):
+        # Lines are tables at fixed angles; forces take fewer gaps, moving angles one for each gap.
+        if np.size(gaps) > 100 and np.ndim(lower) == 0:
+            solved.append(volume)
+        return bridge(gaps, volume, lower, upper, *curvatures, **more)
+
+    # A volume that no other test has: its lines are not known yet.
+    volume = (1.0 + 0.03 * (1.0 + angle)) * VOLUME
+    effects = [MENISCUS, *([ck.CoxVoinovAngle()] if angle else [])]
+    monkeypatch.setattr("contactkit.capillary.exact.bridge.bridge", counted)
+    for speed in (2e-5, 3e-5):
+        film = run(*effects, ck.LandauLevichFilm(), volume=volume, angles=(angle,) * 2, speed=speed)
+        assert np.max(film["deposited_volume"]) > 0.0
+    assert len(solved) == len(set(solved))
+    assert set(solved) >= {volume * node for node in volume_nodes(LEAST_LEFT)}
 
 
 @pytest.mark.slow
