@@ -60,10 +60,10 @@ def elsewhere(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("page", with_blocks("python"))
-def test_python_runs(page, elsewhere, capsys):
+def test_python_runs(page, elsewhere, capsys, request):
     if "fmu" in page.name:
-        pytest.importorskip("pythonfmu")
         pytest.importorskip("fmpy")
+        request.getfixturevalue("kernels_compiled_once")
     names = {"__name__": page.stem}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ck.ValidityWarning)  # the pages say that they come
