@@ -69,7 +69,7 @@ def test_every_registered_effect_has_its_entry_and_every_shipped_scene_its_effec
         assert one["sources"], name
 
 
-LONG = {*CONTACTS, ck.ElasticBodies, ck.SolidContact}  # seconds
+LONG = {*CONTACTS, ck.ElasticBodies, ck.SolidContact, ck.LandauLevichFilm}  # seconds
 
 
 @pytest.mark.parametrize(

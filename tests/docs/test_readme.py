@@ -34,6 +34,11 @@ SLOW = (
     "figures",
     "fit",
     "gradients",
+    "separation",
+    "contact",
+    "stress",
+    "data",
+    "wetting",
 )
 
 

@@ -149,7 +149,7 @@ ANY = re.compile("|".join(f"(?:{pattern})" for pattern in TERMS), re.IGNORECASE)
 
 @functools.cache
 def matches(text):
-    """Former terms in a text, which a name is in many files: place, phrase, what is around, term."""
+    """Former terms in a text: place, phrase, what is around, term. A name is in many files."""
     joined = re.sub(r"\s*\n\s*(?:# )?", " ", text)
     if not ANY.search(joined):
         return []
