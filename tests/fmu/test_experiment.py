@@ -166,7 +166,6 @@ def test_more_switchings_than_can_be_followed_are_refused(drive):
 # Input derivatives ----------------------------------------------------------------------------
 
 
-@pytest.mark.slow
 @needs_compiler
 def test_a_rate_is_given_once(shelf, open_fmu):
     scene, start = native_scene("stiction-mass")
