@@ -109,6 +109,7 @@ def test_data_are_kept_until_their_code_changes(page, tmp_path):
     assert "Draft sizes" in (out / "squares.md").read_text()
 
 
+@pytest.mark.slow
 def test_a_file_of_data_that_is_cut_short_is_made_again(page, tmp_path):
     out = tmp_path / "out"
     gallery(page, out)

@@ -274,6 +274,7 @@ def test_opening_closing_and_opening_again_agree_with_the_motion_of_contactkit(d
     assert {"film cavitates", "liquid returns"} < {event.what for event in result.events}
 
 
+@pytest.mark.slow
 def test_curves_can_be_asked_for_at_any_times():
     scene, valve = injector(20.0)
     times = np.linspace(0.0, 6e-3, 61)

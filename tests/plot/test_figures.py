@@ -96,6 +96,7 @@ def test_every_figure_that_an_effect_declares_is_a_method():
         assert all(callable(getattr(ContactFigures, name)) for name in names)
 
 
+@pytest.mark.slow
 def test_what_a_contact_can_draw_is_drawn_with_units_by_size(pressed, tmp_path):
     names = [name for name in pressed.plot.available if name != "map"]
     more = {"surface_3d", "explore"}

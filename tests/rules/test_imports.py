@@ -11,6 +11,9 @@ from sources import tree
 
 from contactkit._lazy import ABOVE
 
+# Rules of the house, as lint is: 3 s of `make test`.
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 FOLDERS = {
     "contactkit": "contactkit",

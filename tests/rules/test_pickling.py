@@ -195,7 +195,7 @@ MADE = {
     ),
     "measured curve": readings,
     "fit": fitted,
-    "comparison of fits": lambda: ck.compare_fits({"a": fitted(), "b": fitted()}),
+    "comparison of fits": lambda: ck.compare_fits(dict.fromkeys("ab", made("fit"))),
     "load curve": lambda: ck.load_curve(ck.plan(rough(), GRID), pressures=[1e5, 2e5]),
     "load-displacement curve": lambda: ck.load_displacement(rough(), points=4, accuracy=GRID),
     "humidity curve": lambda: ck.humidity_curve(sphere(ck.MeniscusForce()), [0.2, 0.5]),

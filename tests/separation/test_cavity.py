@@ -348,6 +348,7 @@ def test_an_imposed_speed_shows_its_cavity_and_only_a_film_that_cavitates_has_on
             ck.simulate(ck.plan(other))["cavity_radius"]
 
 
+@pytest.mark.slow
 def test_a_vibration_pushes_the_faces_apart_on_the_mean():
     """Cavitated half of the cycle, full the other: rectified, and from cycle to cycle the same."""
     shaken = ck.Vibration(amplitude=2e-6, frequency=1e3)

@@ -79,6 +79,7 @@ def test_without_elastic_bodies_the_rigid_engine_answers():
     assert ck.simulate(made)["pull"].tolist() == ck.simulate(plan(rigid))["pull"].tolist()
 
 
+@pytest.mark.slow
 def test_pulling_presses_the_asperities_harder():
     """The film's suction acts on the bodies: contact grows under a net pull."""
     solid = attrs.evolve(GEL, young_modulus=10.0 * GEL.young_modulus)
@@ -116,6 +117,7 @@ def test_a_force_releases_in_time():
     assert np.interp(0.2, found["time"], found["gap"]) == pytest.approx(3.35735e-6, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_film_ruptures_and_says_when():
     limit = ck.TensionLimit(strength=3500.0, cavity_pressure=101325.0 - 1000.0)
     found = ck.simulate(ck.plan(scene(effects=(limit,)), ck.Accuracy(film_rtol=5e-3)))
@@ -139,6 +141,7 @@ def test_files_and_copies(pulled, tmp_path):
         assert [str(one) for one in copy.validity] == [str(one) for one in pulled.validity]
 
 
+@pytest.mark.slow
 def test_a_study_varies_it():
     rough = ck.Accuracy(film_rtol=2e-2)
     study = ck.study(scene(), {"loading.speed": [1e-6, 1e-5]}, rough)

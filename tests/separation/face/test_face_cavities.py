@@ -118,6 +118,7 @@ def test_what_has_cavitated_is_remembered_until_liquid_is_back():
     assert restored_cavity(saved) == state.cavity
 
 
+@pytest.mark.slow
 def test_a_tilted_face_cavitates_where_it_is_thin_and_pulls_less_than_its_area():
     tilted = ck.Flat(planform=ck.Rectangle(length=4e-3, width=3e-3), tilt=(5e-4, 0.0))
     made = ck.plan(scene(tilted, one_pressure(1e6)), attrs.evolve(ROUGHLY, film_rtol=5e-2))
