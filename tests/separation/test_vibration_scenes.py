@@ -172,6 +172,7 @@ def test_adhesive_solids_are_not_shaken():
         ck.plan(near)
 
 
+@pytest.mark.slow
 def test_files_and_the_command_line(tmp_path, capsys):
     made = attrs.evolve(scene(VISCOUS, TENSION, vibration=shaken(1e-6)), name="a shaken plate")
     path = ck.save_scene(made, tmp_path / "scene.toml")

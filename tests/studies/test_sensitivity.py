@@ -189,6 +189,7 @@ def test_ranges_of_the_disk_hold_its_values():
     assert lean.effects != device.scene.effects
 
 
+@pytest.mark.slow
 def test_the_oil_decides_how_long_the_spool_sticks(injector):
     strength, cavity = (f"effects.tension-limit.{n}" for n in ("strength", "cavity_pressure"))
     chosen = {path: RANGES[path] for path in (strength, cavity, "temperature", "loading.mass")}
