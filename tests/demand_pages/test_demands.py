@@ -69,15 +69,19 @@ def test_every_registered_effect_has_its_entry_and_every_shipped_scene_its_effec
         assert one["sources"], name
 
 
-LONG = {*CONTACTS, ck.ElasticBodies, ck.SolidContact, ck.LandauLevichFilm}  # seconds
+LONG = {*CONTACTS, ck.ElasticBodies, ck.LandauLevichFilm}  # seconds
+LONGEST = {ck.SolidContact}  # ten
+
+
+def marks_of(kind):
+    """How long the counts of an effect take."""
+    if kind in LONGEST:
+        return [pytest.mark.exhaustive]
+    return [pytest.mark.slow] if kind in LONG else []
 
 
 @pytest.mark.parametrize(
-    "kind",
-    [
-        pytest.param(kind, marks=[pytest.mark.slow] * (kind in LONG), id=kind.__name__)
-        for kind in ENTRIES
-    ],
+    "kind", [pytest.param(kind, marks=marks_of(kind), id=kind.__name__) for kind in ENTRIES]
 )
 def test_an_effect_still_costs_what_the_page_counts(kind):
     """Counts, and that the scene without the effect has no trace of it."""

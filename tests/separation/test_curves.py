@@ -253,6 +253,10 @@ def vibrated(scene, amplitude, phase=0.3, **loading):
         list(itertools.product([1e-9, 1e-6, 4.8e-6], [70.0, 300.0, 5e4], [False, True])),
         0,  # nanometres at 70 Hz
         9,  # a micrometre at 300 Hz, cut
+        long=[
+            14,  # nearly closed at 300 Hz
+            17,  # and at 50 kHz, cut
+        ],
     ),
 )
 def test_lines_over_cycles_are_right(amplitude, frequency, is_cut):
