@@ -137,6 +137,7 @@ def _without_windows():
     plt.switch_backend(before)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("_without_windows")
 def test_sections_follow_the_mouse_and_a_click_holds_them(stressed):
     from matplotlib.backend_bases import MouseEvent

@@ -253,6 +253,7 @@ def test_a_film_that_is_cavitated_at_the_start_has_its_cavity_there():
     assert shown.void == 0.0
 
 
+@pytest.mark.slow
 def test_a_face_that_closes_meets_no_full_film_above_the_gap_of_rupture():
     plan = moving(rest_gap=5e-6, initial_gap=5e-6, final_gap=30e-6)
     open_ = advance(plan, start(plan), Pull(40.0), 2.9e-4)

@@ -14,7 +14,6 @@ import loadings
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from selection import quick
 
 import contactkit as ck
 from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure
@@ -121,7 +120,8 @@ def same(again, result):
         np.testing.assert_array_equal(again.columns[name], column)
 
 
-@pytest.mark.parametrize("motion", quick(list(MOTIONS), 2))
+@pytest.mark.slow
+@pytest.mark.parametrize("motion", MOTIONS)
 def test_every_effect_alone_and_in_pairs(motion, tmp_path):
     refusals, done = [], 0
     for i, made in enumerate(combinations(motion)):

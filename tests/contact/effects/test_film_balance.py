@@ -51,6 +51,7 @@ def test_a_loose_tolerance_leaves_the_balance_where_it_is(pressure, rtol):
     assert loose.residual <= 1e-8
 
 
+@pytest.mark.slow
 def test_a_flat_balance_states_how_far_others_are():
     pressure = 1e6
     result = solved(pressure)

@@ -221,6 +221,7 @@ def test_the_fallback_finishes_and_is_reported(solver, monkeypatch):
     assert cut.kkt > 1e-8
 
 
+@pytest.mark.slow
 def test_a_tolerance_near_rounding_is_still_met_or_said_not_to_be(solver):
     s = solver.solve(HEIGHTS, mean_pressure=1e9, rtol=1e-11)
     assert s.converged

@@ -119,6 +119,7 @@ def test_a_pull_slower_than_vapour_warns_with_its_number():
     assert values[0] == pytest.approx(1e5 * values[1], rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:tension over")
 def test_vapour_of_an_unknown_liquid_is_not_evaluated():
     other = attrs.evolve(WATER, molar_mass=0.046)

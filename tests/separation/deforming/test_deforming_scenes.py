@@ -96,6 +96,7 @@ def test_pulling_presses_the_asperities_harder():
     assert found["smallest_gap"].min() == pytest.approx(3e-7, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_meniscus_of_given_volume_is_kept():
     meniscus = ck.Meniscus(liquid=OIL, volume=1e-14)
     stiff = ck.Material(young_modulus=2e8, poisson_ratio=0.3)

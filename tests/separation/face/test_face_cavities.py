@@ -72,6 +72,7 @@ def opened():
     ]
 
 
+@pytest.mark.slow
 def test_forces_at_a_speed_are_those_of_the_round_cavity(opened):
     disc, notched = opened
     gaps = np.geomspace(5e-6, 20e-6, 12)
@@ -83,6 +84,7 @@ def test_forces_at_a_speed_are_those_of_the_round_cavity(opened):
     )
 
 
+@pytest.mark.slow
 def test_a_result_with_a_cavity_is_one_like_any_other(opened, tmp_path):
     _, notched = opened
     notched.save(tmp_path / "notched.npz")
