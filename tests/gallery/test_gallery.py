@@ -213,8 +213,9 @@ def test_the_documentation_shows_every_page():
             assert 0 < (shown / picture).stat().st_size < 150_000
 
 
-LONG = ("chapter_2", "chapter_3", "measured")  # the quick pages of the last are in tests/references
+LONG = ("chapter_2", "chapter_3", "future_work", "measured")  # the last: see tests/references
 PAGES = ["2.1b", "2.3", "2.8", "layered-equations", "3.7", "3.11", "3.15", "Table 4.1"]  # seconds
+PAGES += ["exact-menisci", "other-profiles", "sliding-angles", "stick-slip"]
 
 
 @pytest.mark.parametrize(

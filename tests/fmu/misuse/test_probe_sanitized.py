@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import pytest
-from native_scenes import CC, HAS_CC, HERE, compile_c, scene
+from native_scenes import CC, HAS_CC, HERE, SANITIZED, compile_c, sanitized_kernel, scene
 from selection import quick
 
 pytest.importorskip("pythonfmu")
@@ -31,7 +31,6 @@ from contactkit.fmu.native.build import build_native
 
 pytestmark = pytest.mark.slow
 
-FLAGS = ["-g1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 CASES = [one.__name__ for one in probe.CASES + probe.HARD if one is not probe.odd_path]
 SETTINGS = {
     "ASAN_OPTIONS": "detect_leaks=0:abort_on_error=0:exitcode=99",  # Python leaks for itself
@@ -58,22 +57,11 @@ def unpacked(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def checked(unpacked, tmp_path_factory):
+def checked(unpacked, shelf):
     """Sanitized library of each version of FMI, of the sources in the FMU; models share them."""
-    made = {}
 
     def make(name):
-        version = name[-1]
-        if version not in made:
-            sources = unpacked(name) / "sources"
-            out = tmp_path_factory.mktemp("checked") / f"fmi{version}.so"
-            files = sorted(sources.glob("*.c"))
-            try:
-                compile_c(files, out, "-fPIC", "-shared", f"-I{sources}", *FLAGS)
-            except subprocess.CalledProcessError as error:
-                pytest.skip(f"the compiler has no sanitizers: {error.stderr[:200]}")
-            made[version] = out
-        return made[version]
+        return sanitized_kernel(shelf, unpacked(name) / "sources", int(name[-1]))
 
     return make
 
@@ -90,7 +78,7 @@ def test_no_misuse_touches_what_it_should_not(unpacked, checked, tmp_path, name)
 
 def spoil(library, resources, sources, folder, tries):
     """Number of tables that were taken for good, of so many that were spoilt."""
-    flags = [f"-I{sources}", *FLAGS, f"-Wl,-rpath,{library.parent}"]
+    flags = [f"-I{sources}", *SANITIZED, f"-Wl,-rpath,{library.parent}"]
     program = compile_c([HERE / "native_fuzz.c", library], folder / "fuzz", *flags)
     scratch = folder / "spoilt"
     scratch.mkdir()
