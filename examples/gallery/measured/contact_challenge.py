@@ -38,9 +38,10 @@ PAGE = Page(
     "the published map to 0.5 %, and its height within their scatter. The attraction of the "
     "longer range takes 3.5 to 4.3 kPa from the load of ours, 4.44 from that of the other "
     "program's one map. Without adhesion 2.08 % of the area touch at the reference load, to 1.5 "
-    "%: waves below 0.4 um are extrapolated. Persson's theory gives 1.60 %; his mean gap is "
-    "larger than ours, by 5 % at the reference load and 2 to 16 % over the range, where few of "
-    "the longest waves carry light loads. What is not there: the range of 2.071 nm asks for "
+    "%: waves below 0.8 um are extrapolated, as a run at 0.4 um confirms. Persson's "
+    "theory gives 1.60 %; his mean gap is larger than ours, by 5 % at the reference load and 2 to "
+    "16 % over the range, where few of the longest waves carry light loads. What is not there: the "
+    "range of 2.071 nm asks for "
     "pixels of a nanometre, ten thousand million of them, so that the area with adhesion, "
     "about 3 % from memory, is not computed.",
     choices="Own random phases; one seed keeps its long waves over all cut-offs. Where waves "
