@@ -142,7 +142,7 @@ def _mean_gap(pressure: float, shortest: float) -> float:
     q = np.geomspace(2.0 * math.pi / WIDTH, 2.0 * math.pi / shortest, 400)
     density = np.maximum(q / edge, 1.0) ** (-2.0 - 2.0 * HURST)
     density *= SLOPE**2 / (_moment(SHORTEST, 2.0) * (2.0 * math.pi / WIDTH) ** 2)
-    rough = math.pi * cumulative_trapezoid(q**3 * density, q, initial=0.0)
+    rough = math.pi * cumulative_trapezoid(q**3 * density, q, initial=0)
     w = np.concatenate(([np.inf], rough[1:] ** -0.5))[1:, None]
     p = np.geomspace(pressure, 3.0 * MODULUS, 300)
     part = 0.45 + 3.0 * 0.55 * erf(w * p / MODULUS) ** 2

@@ -65,7 +65,7 @@ def _surface(pixels: int, seed: int, gradient: float) -> Any:
 
 def _waves(pixels: int) -> NDArray[np.float64]:
     axis = 2.0 * math.pi * np.fft.fftfreq(pixels, WIDTH / pixels)
-    return np.hypot(axis[:, None], axis)
+    return np.asarray(np.hypot(axis[:, None], axis))
 
 
 def _full_pressure(pixels: int, seed: int) -> float:
