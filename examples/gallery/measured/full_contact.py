@@ -142,7 +142,7 @@ def _plastic(surface: Any) -> dict[str, Any]:
 
 
 def _wave(pixels: int) -> dict[str, Any]:
-    """Area of the wave over p/p*, corrected at its edges."""
+    """Area of the wave over p/p*, edge-corrected."""
     axis = 2.0 * math.pi * np.arange(pixels) / pixels
     heights = AMPLITUDE * np.cos(axis)[:, None] * np.cos(axis)
     top = math.sqrt(2.0) * math.pi * CAPTION[0] * 10e-9 / WIDTH
