@@ -26,7 +26,6 @@ def blocks(page, language):
 
 SLOW = (
     "adhesion",
-    "head-disk",
     "hosts",
     "films",
     "menisci",
@@ -43,10 +42,10 @@ SLOW = (
 
 
 def with_blocks(language):
-    """Pages with blocks of a language; those about FMUs take long, curves of adhesion a minute."""
+    """Pages with blocks of a language; those about FMUs take long, two others longest."""
 
     def marks(page):
-        if page == ROOT / "docs" / "adhesion.md":
+        if page in (ROOT / "docs" / "adhesion.md", ROOT / "docs" / "head-disk.md"):
             return [pytest.mark.exhaustive]
         return [pytest.mark.slow] if "fmu" in page.name or page.stem in SLOW else []
 
