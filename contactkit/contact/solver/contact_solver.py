@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError
 from ...numerics.fft import Edges
-from .active_set import Outcome, improve
+from .active_set import SetOutcome, improve
 from .convolution import SymbolMaker
 from .first_guess import first_guess
 from .linear_response import linear_response
@@ -243,7 +243,7 @@ class ContactSolver:
                 outcome = improve(self.grids[0], problem, rtol)
                 fallback = not outcome.relative <= rtol
             else:
-                outcome, fallback = Outcome(0.0, np.inf, 0.0, 0, ()), False
+                outcome, fallback = SetOutcome(0.0, np.inf, 0.0, 0, ()), False
             if fallback:
                 max_iterations = min(max_iterations, MOST_STEPS)
             if fallback or method != "active-set":
@@ -364,10 +364,10 @@ class ContactSolver:
         self,
         method: Callable[..., Iterate],
         problem: ContactProblem,
-        outcome: Outcome,
+        outcome: SetOutcome,
         rtol: float,
         max_iterations: int,
-    ) -> Outcome:
+    ) -> SetOutcome:
         """Finish, or solve entirely, by a reference method."""
         fine = self.grids[0]
 
@@ -390,7 +390,12 @@ class ContactSolver:
         )
 
     def _solution(
-        self, problem: ContactProblem, outcome: Outcome, rtol: float, fallback: bool, begun: float
+        self,
+        problem: ContactProblem,
+        outcome: SetOutcome,
+        rtol: float,
+        fallback: bool,
+        begun: float,
     ) -> Solution:
         fine = self.grids[0]
         p, u = fine.pressure, fine.gap  # work arrays: the last use of the gap

@@ -27,13 +27,13 @@ if TYPE_CHECKING:
     Array = NDArray[np.floating[Any]]
     Set = NDArray[np.bool_]
 
-__all__ = ["Problem", "Solution", "solve_active_set", "solve_fischer_burmeister"]
+__all__ = ["ComplementarityProblem", "Solution", "solve_active_set", "solve_fischer_burmeister"]
 
 ROUND_OFF = 1e-13
 """Negative pressure over the largest, and void fraction, that count as zero."""
 
 
-class Problem(NamedTuple):
+class ComplementarityProblem(NamedTuple):
     """A complementarity problem in q = p - reference, of n cells."""
 
     conductances: Any
@@ -63,12 +63,12 @@ class Solution(NamedTuple):
     """Whether the set of full cells no longer changed."""
 
 
-def solve_active_set(problem: Problem, full: Set, limit: int) -> Solution:
+def solve_active_set(problem: ComplementarityProblem, full: Set, limit: int) -> Solution:
     """Solve by a primal-dual active set, from a guess of the full cells.
 
     Parameters
     ----------
-    problem : Problem
+    problem : ComplementarityProblem
         The problem.
     full : ndarray of bool, shape (n,)
         Cells that are full in the guess.
@@ -88,7 +88,7 @@ def solve_active_set(problem: Problem, full: Set, limit: int) -> Solution:
     >>> from scipy.sparse import csr_array
     >>> ladder = csr_array([[2.0, -1.0], [-1.0, 2.0]])
     >>> ones = np.ones(2)
-    >>> problem = Problem(ladder, ones, None, ones, ones / 8, "superlu")
+    >>> problem = ComplementarityProblem(ladder, ones, None, ones, ones / 8, "superlu")
     >>> found = solve_active_set(problem, np.ones(2, bool), 9)
     >>> found.q.tolist(), found.void.tolist(), found.iterations
     ([-0.125, -0.125], [0.875, 0.875], 2)
@@ -108,7 +108,7 @@ def solve_active_set(problem: Problem, full: Set, limit: int) -> Solution:
         seen.add(full.tobytes())
 
 
-def _with_set(problem: Problem, full: Set) -> tuple[Array, Array]:
+def _with_set(problem: ComplementarityProblem, full: Set) -> tuple[Array, Array]:
     """Pressures of the full cells and void fractions of the others."""
     matrix, f = problem.conductances, problem.deficit
     if full.all():
@@ -132,12 +132,14 @@ def _with_set(problem: Problem, full: Set) -> tuple[Array, Array]:
     return q, void
 
 
-def solve_fischer_burmeister(problem: Problem, start: Solution, limit: int = 400) -> Solution:
+def solve_fischer_burmeister(
+    problem: ComplementarityProblem, start: Solution, limit: int = 400
+) -> Solution:
     r"""Solve by Newton on the Fischer-Burmeister function, P + s - sqrt(P^2 + s^2) = 0.
 
     Parameters
     ----------
-    problem : Problem
+    problem : ComplementarityProblem
         The problem; every cell has a floor.
     start : Solution
         Where to start.
@@ -159,7 +161,7 @@ def solve_fischer_burmeister(problem: Problem, start: Solution, limit: int = 400
     --------
     >>> from scipy.sparse import csr_array
     >>> ladder, ones = csr_array([[2.0, -1.0], [-1.0, 2.0]]), np.ones(2)
-    >>> problem = Problem(ladder, ones, None, ones, ones / 8, "superlu")
+    >>> problem = ComplementarityProblem(ladder, ones, None, ones, ones / 8, "superlu")
     >>> start = Solution(-ones / 8, ones, 0, False)
     >>> solve_fischer_burmeister(problem, start).void.round(9).tolist()
     [0.875, 0.875]

@@ -11,7 +11,7 @@ from attrs import evolve
 from ...errors import DescriptionError, InfeasibleError
 from ...validity import warn
 from .complementarity import (
-    Problem,
+    ComplementarityProblem,
     Solution,
     solve_active_set,
     solve_fischer_burmeister,
@@ -470,7 +470,7 @@ def _at_unknowns(mesh: Mesh, values: NDArray[Any]) -> NDArray[Any]:
     return found
 
 
-def _problem(task: Task) -> tuple[Balance, Problem]:
+def _problem(task: Task) -> tuple[Balance, ComplementarityProblem]:
     film, face = task.film, task.face
     balance = discretise(face, task.gap, film.viscosity, task.velocity, film.compressibility)
     mesh = balance.mesh
@@ -498,7 +498,7 @@ def _problem(task: Task) -> tuple[Balance, Problem]:
     drop = balance.reference - _at_unknowns(mesh, task.floor)
     transport = balance.transport if task.has_memory else None
     solver = choose_solver(task.solver, mesh.size)
-    return balance, Problem(conductances, storage, transport, deficit, drop, solver)
+    return balance, ComplementarityProblem(conductances, storage, transport, deficit, drop, solver)
 
 
 def _excess(task: Task, mesh: Mesh) -> Array:

@@ -382,6 +382,7 @@ class CoupledEffect(SeparationEffect):
     """
 
     takes_pressure: ClassVar[bool] = True
+    solves_motion: ClassVar[bool] = True
 
 
 def effects_of(scene: SeparationScene | SlidingScene) -> tuple[SeparationEffect, ...]:
