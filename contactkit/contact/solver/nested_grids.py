@@ -191,7 +191,7 @@ def _two_level(symbols: _Symbols, shape: Shape, symbol: Floats, fast: bool, loop
 
 
 def _decay(symbol: Floats, periodic: Edges) -> float:
-    """How much faster the symbol falls over short waves than that of a half-space, 1 / q."""
+    """Decay of the symbol over the three shortest octaves, over that of a half-space, 1 / q."""
     column = symbol[:, 0] if periodic in (True, "y") else symbol[::2, 0]
     top = max(column.size // 2, 1)
     low = max(top // 8, 1)
@@ -199,7 +199,7 @@ def _decay(symbol: Floats, periodic: Edges) -> float:
 
 
 def _stiffening(symbol: Floats, periodic: Edges) -> float:
-    """How much stiffer the solid is against the shortest waves than against the softest."""
+    """Stiffness ratio of the shortest wave to the most compliant one."""
     column = symbol[:, 0] if periodic in (True, "y") else symbol[::2, 0]
     compliance = column[: column.size // 2 + 1] * np.arange(column.size // 2 + 1)
     return float(compliance.max() / max(compliance[-1], 1e-300))
@@ -218,7 +218,7 @@ def _response(symbol: Floats, shape: Shape, edges: Edges) -> Floats:
 
 
 class _Room:
-    """Memory of the gap of the finest grid, where coarser grids have their maps in turn before it.
+    """Buffer of the gap of the finest grid, reused by the coarser ones, which are solved before it.
 
     They only provide its initial guess; what does not fit gets memory of its own.
     """

@@ -223,7 +223,7 @@ class ProjectedSet(ActiveSetState):
         self.missing = 0.0
 
     def _reduction(self) -> float:
-        """How far to reduce the linear residual: little as long as the set changes."""
+        """Reduction of the linear residual: inexact Newton, loose while the active set changes."""
         for fraction, reduction in REDUCTIONS:
             if self.changed > fraction:
                 return reduction

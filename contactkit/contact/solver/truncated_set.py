@@ -70,7 +70,7 @@ class TruncatedSet(ActiveSetState):
             self._predict_free()
 
     def _reduction(self) -> float:
-        """How far to reduce the linear residual: inexact Newton, loose as the set changes."""
+        """Reduction of the linear residual: inexact Newton, loose while the active set changes."""
         if self.stuck:
             return 0.03
         enough = SAFETY * self.rtol / max(self.relative, 1e-5 * self.rtol)

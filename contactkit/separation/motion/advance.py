@@ -238,7 +238,7 @@ def _is_at_rest(problem: StepProblem) -> bool:
 
 
 def _expecting(problem: StepProblem, force: float) -> StepProblem:
-    """Measure errors against a force [N] that is still to come.
+    """Scale the error control by a force [N] before the pull has risen to it.
 
     At the foot of a ramp nothing acts yet, and a stiff film would be followed through its
     transient, which late in a run is shorter than the time can tell.

@@ -150,8 +150,8 @@ static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion
     p->viscous = first->viscous, p->taken = fabs(state->viscous_impulse);
 }
 
-/* Measure errors against a force that is still to come: at the foot of a ramp nothing acts yet, and
-   a stiff film would be followed through its transient. */
+/* Scale the error control by a force before the pull has risen to it: at the foot of a ramp nothing acts
+   yet, and a stiff film would be followed through its transient. */
 static void expect(ck_problem *p, const ck_forces *first, double force) {
     p->size += force;
     if (first->resistance > 0.0) p->scale = ck_larger(p->scale, force / first->resistance);
