@@ -39,7 +39,10 @@ REFERENCE: dict[str, Callable[..., Iterate]] = {  # the fallback, or the method 
     "conjugate-gradient": conjugate_gradient,
     "quasi-newton": quasi_newton,
 }
-COARSE_RTOL = 2e-2  # on coarser grids, which only provide the initial guess of the next
+# On coarser grids, which only provide the initial guess of the next: at 0.1 the finest takes 6 %
+# more applications, at 5e-3 3 % fewer, for more on the coarse ones (the contacts of the room, on
+# 128 x 128 pixels).
+COARSE_RTOL = 2e-2
 AT_BOUND = 1e-9  # fraction of the bound by which an extrapolation misses it in round-off
 MOST_STEPS = 400  # of the fallback: it has converged by then, or it is not worth its time
 MOST_AT_BOUND = 0.3  # fraction of the contact up to which an earlier solution is the better start
