@@ -50,7 +50,8 @@ PLATE = 8.0
 STIFF = 6.0
 LAYERED = 1.5  # stiffening from which only the metric, which knows the seam, suits a strip
 # Stiffening from which more neighbours in double precision are worth their cost: without them 43
-# and 60 applications in place of 32 and 37 at 3000 and 100 000 times the modulus; from 200 on alike.
+# and 60 applications in place of 32 and 37 at 3000 and 100 000 times the modulus; from 200 on
+# alike.
 STIFFEST = 2000.0
 # Decay of a half-space under uniform pressure on each pixel, where it is not periodic: 0.847 on 128
 # pixels along a side, 0.850 on 256.

@@ -29,8 +29,9 @@ if TYPE_CHECKING:
 
 __all__ = ["ComplementarityProblem", "Solution", "solve_active_set", "solve_fischer_burmeister"]
 
-# At the edge of a cavity a pressure, and a void, are zero but for the round-off of a linear solution:
-# without it sets repeat. 1e-16 to 1e-8 find the same cells in the same solutions on 96 x 72 cells.
+# At the edge of a cavity a pressure, and a void, are zero but for the round-off of a linear
+# solution: without it sets repeat. 1e-16 to 1e-8 find the same cells in the same solutions on 96 x
+# 72 cells.
 ROUND_OFF = 1e-13
 """Negative pressure over the largest, and void fraction, that count as zero."""
 
@@ -99,8 +100,8 @@ def solve_active_set(problem: ComplementarityProblem, full: Set, limit: int) -> 
     count = 0
     while True:
         count += 1
-        # A step is the exact solution for a set: Newton's method on a piecewise linear system, which
-        # ends as soon as the set is right, whatever the start.
+        # A step is the exact solution for a set: Newton's method on a piecewise linear system,
+        # which ends as soon as the set is right, whatever the start.
         q, void = _with_set(problem, full)
         pressure = q + problem.drop
         # A full cell gives way below its floor; a void one is full where liquid overfills it.
@@ -180,8 +181,8 @@ def solve_fischer_burmeister(
     pressure, void = np.maximum((start.q + problem.drop) / unit, 0.0), start.void.copy()
     scale = float(np.abs(f).max() + np.abs(matrix.diagonal()).max())
     for count in range(limit):
-        # P + s - sqrt(P^2 + s^2) is zero where P >= 0, s >= 0 and P s = 0, and smooth but where both
-        # vanish: no set of cells to go round in circles.
+        # P + s - sqrt(P^2 + s^2) is zero where P >= 0, s >= 0 and P s = 0, and smooth but where
+        # both vanish: no set of cells to go round in circles.
         norm = np.hypot(pressure, void)
         phi, residual = pressure + void - norm, matrix @ pressure - moved @ void + f
         if max(float(np.abs(residual).max()) / scale, float(np.abs(phi).max())) < 1e-12:

@@ -39,9 +39,9 @@ __all__ = [
     "unchecked_step",
 ]
 
-# An edge of a cavity that moves by some cells settles within this, one that moves far is found on the
-# coarser grid. Six steps of a pull and a steady film on 320 x 240 cells solve for 2.8 million cells
-# in all; with 1 or 8, 3.1 million, without coarser grids 2.95.
+# An edge of a cavity that moves by some cells settles within this, one that moves far is found on
+# the coarser grid. Six steps of a pull and a steady film on 320 x 240 cells solve for 2.8 million
+# cells in all; with 1 or 8, 3.1 million, without coarser grids 2.95.
 PATIENCE = 4
 """Iterations of the active set before a coarser grid is asked for a better guess."""
 # Below, the active set itself settles in a few solutions: 4 to 64 cost the same.
