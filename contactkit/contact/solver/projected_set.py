@@ -52,9 +52,7 @@ FARTHER = 30.0  # how much more it may after a step that could have gone on: 3 t
 MAX_APPLICATIONS = 1500  # of the operator: a guard, the longest of these contacts takes 38
 MOST_SHORT = 3  # such steps in a row, after which conjugate gradients are tried: 1 to 10 within 1 %
 STUCK = 0.02  # step of the line search that stalls: 0.005 to 0.1 are alike
-LEAST = (
-    0.1  # fraction of a step in the metric that is tried after short ones: 0.02 to 0.5 are alike
-)
+LEAST = 0.1  # fraction of a step in the metric that is tried after short ones: 0.02 to 0.5 alike
 FINEST = 1e-6  # tolerance of the projection after steps that stalled: 1e-8 to 1e-4 are alike
 # Reduction that single precision still gives under a stiff film: at 0.1 a film of 3000 times the
 # modulus takes 45 applications in place of 38, at 1e-3 40.
