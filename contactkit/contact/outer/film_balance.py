@@ -49,8 +49,8 @@ _KEPT = 5
 _FEWEST = 96
 _COMPANION = Accuracy(rtol=1e-3)
 _PIXEL_RTOL = 1e-8  # to which single pixels of a film are known: at 1e-7 some differ, measured
-# Of the load, to either side of a balance, where others are looked for: pixels that fill at once
-# make the force jump by about as much. 0.01 takes 4 % fewer applications, 0.2 takes 1 % more.
+# Of the load, to either side of a balance, where others are looked for. 0.01 takes 4 % fewer
+# applications, 0.2 takes 1 % more.
 _AROUND = 0.05
 _SAMPLES = 64  # loads in that range, of interpolated contacts: none is solved
 
