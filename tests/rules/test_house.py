@@ -386,7 +386,7 @@ def test_no_folder_is_crowded():
     assert crowded == {}
 
 
-ENTRY = re.compile(r"(?m)^([a-z]\w*)(?: +[^a-z\s`]|$)")  # of a table of contents: name, sentence
+ENTRY = re.compile(r"(?m)^([a-z]\w*)(?: +[^a-z\s]|$)")  # of a table of contents: name, sentence
 
 
 def unlike_the_contents(room):
