@@ -16,7 +16,7 @@ from scipy.stats import qmc
 from ..accuracy import Accuracy
 from ..errors import ContactkitError, ConvergenceError, DescriptionError, ValidityWarning
 from ..planning import plan, run
-from ..scene.scenes import ContactScene, Scene
+from ..scene.scenes import Scene
 from ..studies.paths import changed
 from ..studies.study import check_whole
 from ..validity import ValidityNumber, note_worst
@@ -177,7 +177,7 @@ class _Count:
 
 
 def _settings(scene: Any) -> Accuracy:
-    is_curve = isinstance(scene, Scene) and not isinstance(scene, ContactScene)
+    is_curve = isinstance(scene, Scene) and "curve_rtol" in scene.reads
     return _ACCURACY if is_curve else Accuracy.standard
 
 

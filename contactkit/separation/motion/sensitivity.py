@@ -26,7 +26,7 @@ import numpy as np
 from ...errors import ConvergenceError, NotSimulatedError
 from ...numerics.radau_tableau import NODES, STAGES, WEIGHTS
 from ..integrator.dense_output import peak
-from ..integrator.radau import Point, Problem, Step, coordinate
+from ..integrator.radau import MotionPoint, Step, StepProblem, coordinate
 from .advance import Traced, moving_mass, traced_step
 from .events import closed_gap
 from .state import acting_film, start
@@ -234,7 +234,7 @@ class _Motion:
         self,
         film: Film | None,
         state: MotionState,
-        step: tuple[Problem, Step],
+        step: tuple[StepProblem, Step],
         event: float | None,
         marks: tuple[Array, list[list[float]]] | None,
     ) -> list[_Stage]:
@@ -252,7 +252,7 @@ class _Motion:
         self,
         film: Film | None,
         state: MotionState,
-        point: Point,
+        point: MotionPoint,
         scale: float,
         begin: float | None,
         marks: tuple[Array, list[list[float]]] | None,
@@ -282,7 +282,7 @@ class _Motion:
 
     def _solved(
         self,
-        step: tuple[Problem, Step, float],
+        step: tuple[StepProblem, Step, float],
         stages: list[_Stage],
         marks: tuple[Array, list[list[float]]] | None,
         traced: Traced,
@@ -329,7 +329,7 @@ class _Motion:
         )
 
     def _driven(
-        self, problem: Problem, stages: list[_Stage], at: tuple[Array, Array], dt: float
+        self, problem: StepProblem, stages: list[_Stage], at: tuple[Array, Array], dt: float
     ) -> Array:
         """Slopes (3, p) of the net force at a gap and a speed: pull, spring, film, its time."""
         times, gaps = at
@@ -362,7 +362,7 @@ class _Motion:
     def _look_for_peak(
         self,
         film: Film | None,
-        step: tuple[Problem, Step],
+        step: tuple[StepProblem, Step],
         stages: list[_Stage],
         solved: _Solved,
     ) -> None:

@@ -160,7 +160,7 @@ def draw(data: Data) -> plot.Figure:
         ylim=(0.05, 60.0),
     )
     area.legend(fontsize=8, loc="upper right")
-    number.set(xlabel="bumps per mm2 [-]", ylabel="meniscus force/load [-]", ylim=(0.05, 60.0))
+    number.set(xlabel="bumps per mm²", ylabel="meniscus force/load [-]", ylim=(0.05, 60.0))
     number.legend(fontsize=8, loc="upper right")
     heights = TALL if data["tall"].shape[1] == len(TALL) else TALL[::4]
     for i, (spacing, row) in enumerate(zip(AT, data["tall"], strict=True)):

@@ -9,7 +9,7 @@ import pytest
 from selection import quick
 
 from contactkit.contact.solver import contact_solver
-from contactkit.contact.solver.active_set import Outcome, improve
+from contactkit.contact.solver.active_set import SetOutcome, improve
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.contact.solver.optimality import height_scale, optimality
 from contactkit.elasticity import influence, layered, one_axis
@@ -198,7 +198,7 @@ def test_the_fallback_converges_and_needs_less_than_plain_gradients(contrast, lo
 
     def give_up(grid, problem, rtol):
         is_finest = grid.pressure.shape == (64, 64)
-        return Outcome(0.0, np.inf, 0.0, 0, ()) if is_finest else improve(grid, problem, rtol)
+        return SetOutcome(0.0, np.inf, 0.0, 0, ()) if is_finest else improve(grid, problem, rtol)
 
     monkeypatch.setattr(contact_solver, "improve", give_up)
     s = solve(64, contrast, 0.003, load)
