@@ -78,10 +78,13 @@ class MapFields(NamedTuple):
 
 
 class Window(NamedTuple):
-    """Smallest map that holds all cells of film, and the place (flat) of each in it."""
+    """Smallest map that holds all cells of film, and the place (flat) of each in it.
+
+    Of a film that fills it the place is a slice of all, which is not gathered.
+    """
 
     shape: tuple[int, int]
-    place: NDArray[np.int64]
+    place: NDArray[np.int64] | slice
 
 
 class Flow(NamedTuple):
@@ -151,6 +154,8 @@ class WetMap:
         rows, columns = np.divmod(self.mesh.loaded, self.face.shape[1])
         rows, columns = rows - rows.min(), columns - columns.min()
         shape = int(rows.max()) + 1, int(columns.max()) + 1
+        if rows.size == shape[0] * shape[1]:
+            return Window(shape, slice(None))
         return Window(shape, np.asarray(rows * shape[1] + columns))
 
     @storage.default
@@ -188,7 +193,7 @@ class WetMap:
         shape, place = self.window
         pressure = np.zeros(shape)
         pressure.ravel()[place] = total
-        return deform(pressure).ravel()[place]
+        return np.asarray(deform(pressure).ravel()[place])
 
     def gap(self, now: MapFields) -> Array:
         """Gap of the deformed bodies [m], shape (n,)."""
