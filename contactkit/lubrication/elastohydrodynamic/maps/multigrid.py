@@ -3,8 +3,9 @@ r"""Approximate inverse of a film with springs on a grid: one cycle of multigrid
 The matrix is that of five points, :math:`A = L + \mathrm{diag}(k)`, with the conductances L between
 cells and what else leaves them, k: into springs, the rim and cavities. A coarser cell holds two by
 two. Its conductance to the next is that of both rows of cells from centre to centre, each in
-series, and its k is the sum of theirs; corrections are interpolated bilinearly. Sums of
-conductances alone, as in Galerkin's matrix, would be twice too stiff. Grids between the finest and
+series; its spring is the sum of theirs, and so are its outlets, from its centre too. Corrections
+are interpolated bilinearly. Sums of conductances alone, as in Galerkin's matrix, would be twice too
+stiff. Grids between the finest and
 the coarsest are corrected twice (an F cycle): on 256 x 256 cells of a rough film that leaves 0.3 of
 the error, and one correction 0.5, more on finer grids.
 
@@ -45,8 +46,10 @@ class Multigrid:
     ----------
     along_x, along_y : ndarray, shape (ny, nx - 1), (ny - 1, nx)
         Conductances between cells; 0 beside those that are left out.
-    leaving : ndarray, shape (ny, nx)
-        What else leaves a cell, k.
+    springs : ndarray, shape (ny, nx)
+        What a cell takes in.
+    outlets : ndarray, shape (ny, nx)
+        Conductances to known pressures, of the rim and of cavities.
 
     Raises
     ------
@@ -55,21 +58,23 @@ class Multigrid:
 
     Examples
     --------
-    >>> solve = Multigrid(np.ones((40, 39)), np.ones((39, 40)), np.full((40, 40), 0.1))
+    >>> springs, outlets = np.full((40, 40), 0.1), np.zeros((40, 40))
+    >>> solve = Multigrid(np.ones((40, 39)), np.ones((39, 40)), springs, outlets)
     >>> right = np.ones((40, 40), np.float32)  # of a pressure of 10
     >>> bool(np.abs(solve(right) / (10.0 * solve.unit) - 1.0).max() < 0.2)
     True
     """
 
-    def __init__(self, along_x: Map, along_y: Map, leaving: Map) -> None:
-        largest = [float(one.max(initial=0.0)) for one in (along_x, along_y, leaving)]
+    def __init__(self, along_x: Map, along_y: Map, springs: Map, outlets: Map) -> None:
+        given = along_x, along_y, springs, outlets
+        largest = [float(one.max(initial=0.0)) for one in given]
         self.unit = max(largest) or 1.0  # for the range of single precision
-        x, y, k = (one / self.unit for one in (along_x, along_y, leaving))
+        x, y, k, out = (one / self.unit for one in given)
         self.levels: list[_Level] = []
         while max(k.shape) > _COARSEST:
-            self.levels.append(_Level(x, y, k))
-            x, y, k = _in_series(x), _in_series(y.T).T, _sums(k)
-        self.coarsest = _inverse(x, y, k)
+            self.levels.append(_Level(x, y, k + out))
+            x, y, k, out = _in_series(x), _in_series(y.T).T, _sums(k), _farther(out, x, y)
+        self.coarsest = _inverse(x, y, k + out)
 
     def __call__(self, right: Single) -> Single:
         """Pressures times the unit of conductances that nearly cancel what flows into the cells.
@@ -101,7 +106,9 @@ class _Level:
         self.to_right = padded.ravel()[:-1].astype(np.float32)
         self.to_next = along_y.ravel().astype(np.float32)
         self.diagonal = diagonal.ravel().astype(np.float32)
-        self.damped = [np.float32(one) / self.diagonal for one in _DAMPING]
+        # Cells that are left out keep what is interpolated, and leave nothing.
+        inverse = np.divide(1.0, diagonal, out=np.zeros(diagonal.shape), where=diagonal > 0.0)
+        self.damped = [(one * inverse).ravel().astype(np.float32) for one in _DAMPING]
         # What is allocated anew costs as much as the arithmetic.
         self.pressure, self.left, self.spare = (np.empty_like(self.diagonal) for _ in range(3))
 
@@ -145,18 +152,18 @@ class _Level:
 
 
 def _diagonal(along_x: Map, along_y: Map, leaving: Map) -> Map:
-    """All that leaves a cell; 1 of cells that are left out."""
+    """All that leaves a cell; 0 of cells that are left out."""
     total = leaving.copy()
     total[:, :-1] += along_x
     total[:, 1:] += along_x
     total[:-1] += along_y
     total[1:] += along_y
-    return np.where(total > 0.0, total, 1.0)
+    return total
 
 
 def _inverse(along_x: Map, along_y: Map, leaving: Map) -> Single:
     diagonal = _diagonal(along_x, along_y, leaving)
-    whole = np.diag(diagonal.ravel())
+    whole = np.diag(np.where(diagonal > 0.0, diagonal, 1.0).ravel())
     cell = np.arange(diagonal.size).reshape(diagonal.shape)
     sides = (cell[:, :-1], cell[:, 1:], along_x), (cell[:-1], cell[1:], along_y)
     for low, high, conductance in sides:
@@ -190,6 +197,15 @@ def _in_series(along_x: Map) -> Map:
     with np.errstate(divide="ignore"):
         path = 1.0 / (half[:, :-1] + 1.0 / between + half[:, 1:])
     return np.asarray(path[0::2] + path[1::2])
+
+
+def _farther(outlets: Map, along_x: Map, along_y: Map) -> Map:
+    """Outlets of coarser cells: in series with what is within from their edges to their centres."""
+    total, ny, nx = _sums(outlets), *outlets.shape
+    x, y = np.zeros((ny, nx)), np.zeros((ny, nx))
+    x[:, 0 : nx - 1 : 2], y[0 : ny - 1 : 2] = along_x[:, ::2], along_y[::2]
+    within = _sums(x + y)
+    return np.where(within > 0.0, total * within / (total + within + (within == 0.0)), total)
 
 
 def _between(coarse: Single) -> Single:

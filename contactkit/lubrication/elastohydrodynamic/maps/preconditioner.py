@@ -148,15 +148,15 @@ def _multigrid(wet: WetMap, flow: Flow, springs: Array, void: Mask, length: floa
     mesh, (shape, place) = wet.mesh, wet.window
     low, high = mesh.number[mesh.sides.low], mesh.number[mesh.sides.high]
     at_rim = mesh.number[mesh.rim.cell]
-    leaving = springs + np.bincount(at_rim, weights=flow.outer, minlength=mesh.size)
+    outlets = np.bincount(at_rim, weights=flow.outer, minlength=mesh.size).astype(float)
     weight, conductance = wet.storage / length, flow.inner
     has_voids = bool(void.any())
     if has_voids:
-        # What flows into cavities leaves, and those themselves are left out.
+        # Cavities are outlets, and are left out themselves.
         within = ~(void[low] | void[high])
         for one in (low, high):
-            leaving += np.bincount(one, np.where(within, 0.0, conductance), minlength=mesh.size)
-        weight, leaving = np.where(void, 0.0, weight), np.where(void, 0.0, leaving)
+            outlets += np.bincount(one, np.where(within, 0.0, conductance), minlength=mesh.size)
+        weight, springs, outlets = (np.where(void, 0.0, one) for one in (weight, springs, outlets))
         conductance = np.where(within, conductance, 0.0)
 
     def on_window(cells: Any, values: Array) -> Array:
@@ -168,7 +168,8 @@ def _multigrid(wet: WetMap, flow: Flow, springs: Array, void: Mask, length: floa
         on_window(low[one], conductance[one])
         for one in (mesh.sides.axis == 0, mesh.sides.axis == 1)
     )
-    cycle = Multigrid(along_x[:, :-1], along_y[:-1], on_window(slice(None), leaving))
+    of_cells = (on_window(slice(None), one) for one in (springs, outlets))
+    cycle = Multigrid(along_x[:, :-1], along_y[:-1], *of_cells)
     # Rows are of the size of 1 or less, and so are the weights: the range of single precision.
     unit = float(weight.max()) or 1.0
     weight, factor = weight / unit, unit / cycle.unit
