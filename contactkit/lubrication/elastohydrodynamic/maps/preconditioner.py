@@ -37,6 +37,7 @@ _Solve = Callable[[Array], Array]
 
 # Of the highest wavenumber pi/dx of a grid: what a single cell in contact gives way.
 _SHORTEST = 0.8
+_FEW = 3000  # cells up to which factors take no more time than multigrid
 _SAMPLES = 64  # wavenumbers of the table, between which compliances are interpolated
 
 
@@ -131,6 +132,7 @@ def preconditioner(
         raise ConvergenceError("bodies that touch must deform: those here are rigid")
     alone = ~sets.contact
     springs = np.where(alone, wet.storage / length * local.at(gap, length), 0.0)
+    is_exact |= wet.mesh.size <= _FEW
     solve = (_factors if is_exact else _multigrid)(wet, flow, springs, sets.void, length)
     rigid: Array = np.zeros(len(alone))
     pressed = motion = 0.0

@@ -163,7 +163,7 @@ class _Newton:
                 self._settle()
                 continue
             before = np.inf if changed else size
-            self._correct(rows, _SOLVED / size)
+            self._correct(rows, _SOLVED / max(size, _SOLVED))
         raise StepFailedError(f"not converged: rows of {size:.1e}")
 
     @property
