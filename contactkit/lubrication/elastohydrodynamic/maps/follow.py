@@ -278,7 +278,7 @@ class _Run(Progress[MapState, list[MapStepped]]):
 
         self.before = before
         self.highest = max(self.highest, abs(wet.thrust(end.fields.total)))
-        power = [wet.power(one.fields.pressure, one.flow) for one in solved]
+        power = [one.flow.power(one.fields.pressure) for one in solved]
         pulls = [-wet.thrust(one.fields.total) * one.fields.speed for one in solved]
         work, lost = over_step(pulls), over_step([one[0] for one in power])
         if self.jumps:

@@ -39,7 +39,7 @@ def rigid_damping(wet: WetMap, rigid_gap: float) -> float:
     if not gap.min() > 0.0:
         raise ConvergenceError(f"rigid bodies overlap at a gap of {rigid_gap:g} m")
     # Where they touch nothing can open, but for its film.
-    solve = factorised(wet.flow(gap).matrix)
+    solve = factorised(wet.matrix(gap))
     return wet.thrust(solve(wet.storage * np.where(shape >= gap, 1.0, 0.0)))
 
 

@@ -16,7 +16,6 @@ fifth of the time for on 512 x 512 cells, without their making.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from attrs import field, frozen
@@ -26,8 +25,9 @@ from ....errors import ConvergenceError
 from ...reynolds.linear_systems import factorised
 from ..drive import Driven
 from ..wet_gap import Sets
+from .flow import Flow
 from .multigrid import Multigrid
-from .wet_map import Flow, WetMap
+from .wet_map import WetMap
 
 __all__ = ["LocalCompliance", "Preconditioner", "preconditioner"]
 
@@ -133,7 +133,11 @@ def preconditioner(
     alone = ~sets.contact
     springs = np.where(alone, wet.storage / length * local.at(gap, length), 0.0)
     is_exact |= wet.mesh.size <= _FEW
-    solve = (_factors if is_exact else _multigrid)(wet, flow, springs, sets.void, length)
+    solve = (
+        _factors(wet, gap, springs, sets.void, length)
+        if is_exact
+        else _multigrid(wet, flow, springs, sets.void, length)
+    )
     rigid: Array = np.zeros(len(alone))
     pressed = motion = 0.0
     if isinstance(wet.drive, Driven):
@@ -147,45 +151,42 @@ def preconditioner(
 
 def _multigrid(wet: WetMap, flow: Flow, springs: Array, void: Mask, length: float) -> _Solve:
     """One cycle for the cells that are full; in cavities unknowns are rows."""
-    mesh, (shape, place) = wet.mesh, wet.window
-    low, high = mesh.number[mesh.sides.low], mesh.number[mesh.sides.high]
-    at_rim = mesh.number[mesh.rim.cell]
-    outlets = np.bincount(at_rim, weights=flow.outer, minlength=mesh.size).astype(float)
-    weight, conductance = wet.storage / length, flow.inner
-    has_voids = bool(void.any())
+    window, (ny, nx) = wet.sides.window, wet.sides.window.shape
+    weight, has_voids = wet.storage / length, bool(void.any())
+    taken_in, outlets = window.spread(springs), np.array(window.spread(flow.rim[0]))
+    between = [np.zeros(window.size), np.zeros(window.size)]
+    empty = window.spread(void) if has_voids else void
+    for found, (conductance, step) in zip(between, flow.each(), strict=True):
+        found[:-step] = conductance
+        if has_voids:
+            # Cavities are outlets, and are left out themselves.
+            lost = np.where(empty[:-step] | empty[step:], conductance, 0.0)
+            found[:-step] -= lost
+            outlets[:-step] += lost
+            outlets[step:] += lost
     if has_voids:
-        # Cavities are outlets, and are left out themselves.
-        within = ~(void[low] | void[high])
-        for one in (low, high):
-            outlets += np.bincount(one, np.where(within, 0.0, conductance), minlength=mesh.size)
-        weight, springs, outlets = (np.where(void, 0.0, one) for one in (weight, springs, outlets))
-        conductance = np.where(within, conductance, 0.0)
-
-    def on_window(cells: Any, values: Array) -> Array:
-        found = np.zeros(shape)
-        found.ravel()[cells if isinstance(place, slice) else place[cells]] = values
-        return found
-
-    along_y, along_x = (
-        on_window(low[one], conductance[one])
-        for one in (mesh.sides.axis == 0, mesh.sides.axis == 1)
+        weight, taken_in, outlets = (
+            np.where(out, 0.0, one)
+            for out, one in ((void, weight), (empty, taken_in), (empty, outlets))
+        )
+    along_x, along_y, taken_in, outlets = (
+        one.reshape(ny, nx) for one in (*between, taken_in, outlets)
     )
-    of_cells = (on_window(slice(None), one) for one in (springs, outlets))
-    cycle = Multigrid(along_x[:, :-1], along_y[:-1], *of_cells)
+    cycle = Multigrid(along_x[:, :-1], along_y[:-1], taken_in, outlets)
     # Rows are of the size of 1 or less, and so are the weights: the range of single precision.
     unit = float(weight.max()) or 1.0
     weight, factor = weight / unit, unit / cycle.unit
-    right = np.zeros(shape, np.float32)
+    right = np.zeros((ny, nx), np.float32)
 
     def solve(rows: Array) -> Array:
-        right.ravel()[place] = weight * rows
-        found = np.multiply(cycle(right).ravel()[place], factor, dtype=np.float64)
+        right.ravel()[window.place] = weight * rows
+        found = np.multiply(cycle(right).ravel()[window.place], factor, dtype=np.float64)
         return np.where(void, rows, found) if has_voids else found
 
     return solve
 
 
-def _factors(wet: WetMap, flow: Flow, springs: Array, void: Mask, length: float) -> _Solve:
+def _factors(wet: WetMap, gap: Array, springs: Array, void: Mask, length: float) -> _Solve:
     """Factors in place of a cycle, where that is too poor an inverse."""
     from scipy.sparse import diags_array
 
@@ -193,7 +194,7 @@ def _factors(wet: WetMap, flow: Flow, springs: Array, void: Mask, length: float)
     if not cells.size:
         return np.copy
     weight = wet.storage[cells] / length
-    inverse = factorised((flow.matrix + diags_array(springs)).tocsc()[cells][:, cells])
+    inverse = factorised((wet.matrix(gap) + diags_array(springs)).tocsc()[cells][:, cells])
 
     def solve(rows: Array) -> Array:
         found = rows.copy()

@@ -13,7 +13,7 @@ tolerance: so liquid is conserved to round-off, and what a step leaves is mended
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +23,9 @@ from ....errors import ConvergenceError
 from ..drive import Driven, Imposed
 from ..step import StepFailedError
 from ..wet_gap import Sets
+from .flow import Flow, FlowSlopes
 from .preconditioner import LocalCompliance, Preconditioner, inertia, preconditioner
-from .wet_map import Flow, MapFields, WetMap
+from .wet_map import MapFields, WetMap
 
 __all__ = ["MapStepped", "step"]
 
@@ -272,7 +273,7 @@ class _Newton:
         return pressure, total, float(x[-1]) if self.moves else 0.0
 
     def _product(self, inverse: Preconditioner) -> _Product:
-        slopes = self.wet.flow_slopes(self.flow, self.height, self.pressure)
+        slopes = FlowSlopes(self.flow, self.height, self.pressure)
         return _Product(self, slopes, inverse)
 
     def _violated(self, *, strictly: bool) -> tuple[Sets, list[int]]:
@@ -326,7 +327,7 @@ def _accuracy(wanted: float) -> float:
 class _Product:
     """Product of the whole slope matrix with changes of the unknowns."""
 
-    def __init__(self, newton: _Newton, slopes: Any, inverse: Preconditioner) -> None:
+    def __init__(self, newton: _Newton, slopes: FlowSlopes, inverse: Preconditioner) -> None:
         self.newton, self.slopes, self.inverse = newton, slopes, inverse
         self.has_voids = bool(newton.sets.void.any())
         self.has_contacts = bool(newton.sets.contact.any())
@@ -340,8 +341,8 @@ class _Product:
             opened += moved
         n, sets = len(opened), newton.sets
         found = np.empty(len(x))
-        film = newton.flow.matrix @ pressure
-        film += self.slopes @ (opened if self.follow else np.where(newton.follows, opened, 0.0))
+        widened = opened if self.follow else np.where(newton.follows, opened, 0.0)
+        film = self.slopes(pressure, widened)
         film *= newton.storing
         film += np.where(sets.contact, 0.0, opened) if self.has_contacts else opened
         found[:n] = np.where(sets.void, x[:n], film) if self.has_voids else film
