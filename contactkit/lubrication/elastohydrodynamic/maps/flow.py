@@ -164,7 +164,8 @@ class Flow:
             through = conductance * (p[:-step] - p[step:])
             found[:-step] += through
             found[step:] -= through
-        return window.gathered(found) + (self.rim[0] * pressure - self.rim[1])
+        at_rim = self.rim[0] * pressure - self.rim[1]
+        return np.asarray(window.gathered(found) + at_rim)
 
     def power(self, pressure: Array) -> tuple[float, float]:
         """Power that the film dissipates [W], and flow of liquid in through the rim [m3/s]."""
@@ -210,7 +211,8 @@ class FlowSlopes:
                 through += part
                 found[here] += through
                 found[there] -= through
-        return window.gathered(found) + (flow.rim[0] * pressure + self.at_rim * gap)
+        at_rim = flow.rim[0] * pressure + self.at_rim * gap
+        return np.asarray(window.gathered(found) + at_rim)
 
 
 def _pieces(size: int, step: int) -> Iterator[tuple[slice, slice]]:

@@ -40,7 +40,8 @@ def rigid_damping(wet: WetMap, rigid_gap: float) -> float:
         raise ConvergenceError(f"rigid bodies overlap at a gap of {rigid_gap:g} m")
     # Where they touch nothing can open, but for its film.
     solve = factorised(wet.matrix(gap))
-    return wet.thrust(solve(wet.storage * np.where(shape >= gap, 1.0, 0.0)))
+    found = solve(wet.storage * np.where(shape >= gap, 1.0, 0.0))
+    return wet.thrust(found.astype(np.float64))
 
 
 @one_thread()

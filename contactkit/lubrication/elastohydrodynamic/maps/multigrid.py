@@ -125,7 +125,8 @@ class _Level:
 
     def summed_residual(self, right: Single) -> Single:
         """What is left, of coarser cells."""
-        return _sums(self._residual(right).reshape(self.shape))
+        found: Single = _sums(self._residual(right).reshape(self.shape))
+        return found
 
     def add_coarser(self, correction: Single) -> None:
         """Add the correction of coarser cells."""
@@ -205,7 +206,8 @@ def _farther(outlets: Map, along_x: Map, along_y: Map) -> Map:
     x, y = np.zeros((ny, nx)), np.zeros((ny, nx))
     x[:, 0 : nx - 1 : 2], y[0 : ny - 1 : 2] = along_x[:, ::2], along_y[::2]
     within = _sums(x + y)
-    return np.where(within > 0.0, total * within / (total + within + (within == 0.0)), total)
+    series = total * within / (total + within + (within == 0.0))
+    return np.asarray(np.where(within > 0.0, series, total))
 
 
 def _between(coarse: Single) -> Single:
