@@ -131,9 +131,9 @@ class WetGap:
         return now.rim * (self.compliance @ (now.pressure + now.solid))
 
     def imposed(self, now: Fields, time: float) -> float:
-        """Size of the forces that drive a mass; 0 of an imposed gap.
+        """Size of the forces on a mass from outside; 0 of an imposed gap.
 
-        That of the film is next to nothing long before a heavy mass moves, and no scale of errors.
+        That of the film is negligible until a heavy mass moves, and until then no scale of errors.
         """
         drive = self.drive
         if isinstance(drive, Imposed):

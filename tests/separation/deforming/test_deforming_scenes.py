@@ -71,7 +71,7 @@ def test_stiff_bodies_give_the_rigid_engine():
 
 
 def test_a_heavy_mass_leaves_as_from_rigid_bodies():
-    """Bodies that hardly deform; the film takes no force before the mass moves."""
+    """Bodies that hardly deform; the film takes no force until the mass moves."""
     stiff = attrs.evolve(GEL, young_modulus=1e4 * GEL.young_modulus)
     force, mass = 1e-3, 0.4
     loading = ck.ImposedForce(force=force, mass=mass, initial_gap=1e-6, final_gap=4e-6)

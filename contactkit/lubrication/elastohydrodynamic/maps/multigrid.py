@@ -124,7 +124,7 @@ class _Level:
             self._step(damped, right)
 
     def summed_residual(self, right: Single) -> Single:
-        """What is left, of coarser cells."""
+        """Residual of coarser cells."""
         found: Single = _sums(self._residual(right).reshape(self.shape))
         return found
 
