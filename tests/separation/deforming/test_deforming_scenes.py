@@ -6,8 +6,10 @@ import pickle
 import attrs
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import contactkit as ck
+from contactkit.separation.deforming.phases import pressing_speed
 
 OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
 GEL = ck.Material(name="gel", young_modulus=353553.39 * 0.75, poisson_ratio=0.5)
@@ -66,6 +68,36 @@ def test_stiff_bodies_give_the_rigid_engine():
     later = found["time"] > 1e-2
     expected = law.force(found["gap"][later], 1e-5)
     assert found["pull"][later] == pytest.approx(expected, rel=1e-3)
+
+
+def test_a_heavy_mass_leaves_as_from_rigid_bodies():
+    """Bodies that hardly deform; the film takes no force until the mass moves."""
+    stiff = attrs.evolve(GEL, young_modulus=1e4 * GEL.young_modulus)
+    force, mass = 1e-3, 0.4
+    loading = ck.ImposedForce(force=force, mass=mass, initial_gap=1e-6, final_gap=4e-6)
+    found = ck.simulate(ck.plan(scene(loading, solid=stiff)))
+
+    def rates(_, state):
+        gap, speed = state
+        edge = gap + RIM**2 / (2.0 * 5e-3)
+        inner = 1.0 / gap - 1.0 / edge - (edge - gap) / edge**2
+        return speed, (force - 6.0 * math.pi * 0.1 * 5e-3**2 * inner * speed) / mass
+
+    def leaves(_, state):
+        return state[0] - 4e-6
+
+    leaves.terminal = True
+    law = solve_ivp(rates, (0.0, 1.0), [1e-6, 0.0], "LSODA", rtol=1e-8, atol=1e-14, events=leaves)
+    assert found.numbers["release_time"] == pytest.approx(law.t_events[0][0], rel=1e-3)
+    assert found.work.n_rejected < 5
+
+
+def test_the_scale_of_a_press_is_the_damping_of_the_face():
+    """Of a round flat 3 pi eta R^4/(2 h^3), by Stefan."""
+    loading = ck.PressAndPull(press=1e-3, rest=1.0, speed=1e-6, initial_gap=1e-6, final_gap=2e-6)
+    flat = attrs.evolve(scene(loading), interface=attrs.evolve(scene().interface, upper=ck.Flat()))
+    damping = 1.5 * math.pi * 0.1 * RIM**4 / 1e-6**3
+    assert pressing_speed(ck.plan(flat)) == pytest.approx(1e-3 / damping, rel=1e-9)
 
 
 @pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
