@@ -63,14 +63,14 @@ def agree(found, wanted, size, rel=1e-6):
     assert abs(found - wanted) <= rel * max(abs(wanted), 1e-3 * abs(size))
 
 
-def check_contact(scene, of, paths, accuracy=EXACT, rel=1e-6):
+def check_contact(scene, of, paths, accuracy=EXACT, rel=1e-6, step=1e-5):
     result = ck.solve(ck.plan(scene, accuracy))
     assert result.status == "converged"
     gradient = result.gradient(of, paths)
     assert gradient.value == functional(of).value(result)
     for path in paths:
         value = value_at(scene, accuracy, path)
-        wanted = slope(lambda x, p=path: of_contact(scene, accuracy, of, {p: x}), value)
+        wanted = slope(lambda x, p=path: of_contact(scene, accuracy, of, {p: x}), value, step)
         agree(gradient[path], wanted, gradient.value / value, rel)
     return result, gradient
 
@@ -201,6 +201,50 @@ def test_without_contact_nothing_depends_on_anything():
     assert not gradient["heights"].any()
 
 
+def attracted(law=None):
+    return ck.Adhesion(law=law or ck.ExponentialAttraction(work_of_adhesion=3e-2, range=6e-9))
+
+
+WORK, RANGE = "effects.adhesion.law.work_of_adhesion", "effects.adhesion.law.range"
+
+
+def check_attracted(loading, of, paths, law=None, rel=1e-6):
+    scene = pressed(loading, attracted(law), solid=SOLID, periodic=False)
+    result, gradient = check_contact(scene, of, paths, rel=rel, step=2e-4)
+    assert result.contact.any()
+    assert not result.contact.all()
+    assert not gradient.is_one_sided
+    return result, gradient
+
+
+def test_an_attraction_adds_its_tangent_on_the_pixels_apart():
+    paths = (WORK, RANGE, "loading.approach", "interface.lower.solid.young_modulus")
+    check_attracted(ck.Approach(approach=5e-9), "load", paths)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("of", ["approach", "mean_gap", "max_pressure", "elastic_energy"])
+def test_numbers_of_an_attracted_contact_under_a_load(of):
+    paths = (WORK, "loading.pressure", "interface.lower.solid.young_modulus")
+    result, _ = check_attracted(ck.Pressing(pressure=3e5), of, paths)
+    check_heights(result.plan.scene, result, of)
+
+
+@pytest.mark.slow
+def test_lennard_jones_attracts_with_a_tangent_too():
+    law = ck.LennardJonesAttraction(work_of_adhesion=3e-2, range=8e-9)
+    check_attracted(ck.Approach(approach=5e-9), "load", (WORK, RANGE), law)
+
+
+@pytest.mark.slow
+def test_an_attraction_beside_a_hardness():
+    effects = attracted(), ck.HardnessLimit()
+    scene = pressed(ck.Pressing(pressure=3e6), *effects, solid=SOLID, periodic=False)
+    paths = (WORK, "interface.lower.solid.hardness", "loading.pressure")
+    result, _ = check_contact(scene, "approach", paths, step=1e-4)
+    assert result.of(ck.HardnessLimit).area > 0.0
+
+
 FRICTION = (ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling())
 
 
@@ -209,10 +253,6 @@ FRICTION = (ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling())
     [
         (FRICTION, "FrictionCoupling: friction displaces"),
         ((ck.HardnessLimit(), ck.PlasticHistory(pressures=(4e6,))), "PlasticHistory: the shape"),
-        (
-            (ck.Adhesion(law=ck.ExponentialAttraction(work_of_adhesion=1e-3, range=1e-9)),),
-            "Adhesion: the tension",
-        ),
     ],
 )
 def test_what_has_no_gradient_is_refused_with_the_reason(effects, message):

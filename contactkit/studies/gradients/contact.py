@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...contact.adjoint import Change, adjoint, check_differentiable
-from ...contact.effects.base import Compliance, FixedHardness
+from ...contact.effects.base import Attraction, Compliance, FixedHardness
 from ...contact.functionals import Functional, functional
 from ...contact.grid import combined_heights
 from ...contact.plan import ContactPlan, unprepared_plan
@@ -169,6 +169,21 @@ def _loads(plan: ContactPlan) -> _Loads:
     return _Loads(hardness, plan.mean_pressure or 0.0, approach or 0.0)
 
 
+def _of_attraction(
+    plan: ContactPlan, result: ContactResult, made: Differences[ContactPlan]
+) -> Map | None:
+    """Differences of the tension at the gaps of the contact; None without an attraction."""
+    mine = plan.scene.effect(Attraction)
+    if mine is None or all(one.scene.effect(Attraction) == mine for one in made.prepared):
+        return None
+    own = plan.prepared.solver.self_influence
+
+    def tension(one: ContactPlan) -> Map:
+        return one.scene.demand(Attraction).prepare(own).tension(result.gap)
+
+    return np.asarray(made.weighted(tension))
+
+
 def _change(
     plan: ContactPlan,
     result: ContactResult,
@@ -187,6 +202,7 @@ def _change(
             if plan.hardness is not None
             else None
         ),
+        tension=_of_attraction(plan, result, made),
         load=float(made.weighted(lambda one: _loads(one).load)),
         approach=float(made.weighted(lambda one: _loads(one).approach)),
     )
