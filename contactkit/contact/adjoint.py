@@ -22,7 +22,8 @@ at the gaps of the contact to dJ.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -77,8 +78,8 @@ class Adjoint(NamedTuple):
 
     `heights` and `pressed` (ny, nx) [unit/m], `hardness` and `tension` (ny, nx) [unit/Pa], `load`
     over the mean pressure [unit/Pa], `approach` over that from first touch [unit/m]. `n_undecided`
-    pixels carry
-    no pressure and have no gap either: the slopes are one-sided. `n_applications` of the operator.
+    pixels carry no pressure and have no gap either: the slopes are one-sided. `n_applications` of
+    the operator.
     """
 
     heights: Map
@@ -104,8 +105,10 @@ class Adjoint(NamedTuple):
         return found
 
 
-def check_differentiable(plan: ContactPlan) -> None:
+def check_differentiable(plan: ContactPlan, of: str) -> None:
     """Refuse a contact whose gradient is not that of its pressure alone.
+
+    Under loads that only rise, plastic pixels carry the hardness as they do without a history.
 
     Raises
     ------
@@ -113,14 +116,15 @@ def check_differentiable(plan: ContactPlan) -> None:
         Names the effect and the reason.
     """
     scene = plan.scene
-    reasons = {
-        LoadHistory: "the shape depends on all loads before",
-        DisplacementTerm: "friction displaces the surfaces, and the equations are not symmetric",
-    }
-    for role, reason in reasons.items():
-        effect = scene.effect(role)
-        if effect is not None:
-            raise _refused(type(effect).__name__, reason)
+    history, term = scene.effect(LoadHistory), scene.effect(DisplacementTerm)
+    if history is not None and not _only_rises(plan, history):
+        reason = "the shape depends on a load before that was as large or larger"
+        raise _refused(type(history).__name__, reason)
+    if history is not None and of == "energy":
+        raise _refused(type(history).__name__, "its energy is that of the shape that it left")
+    if term is not None:
+        reason = "friction displaces the surfaces, and the equations are not symmetric"
+        raise _refused(type(term).__name__, reason)
     slip, film = scene.effect(PartialSlip), scene.effect(LoadTerm)
     if slip is not None and slip.couples(scene):
         raise _refused("PartialSlip(coupled=True)", "the tractions depend on the path of the load")
@@ -129,6 +133,16 @@ def check_differentiable(plan: ContactPlan) -> None:
         raise _refused(f"{type(film).__name__}(self_consistent=True)", reason)
     if plan.hardness is not None and not isinstance(plan.hardness, FixedHardness):
         raise _refused("HardnessLimit", "its hardness depends on the displacement")
+
+
+def _only_rises(plan: ContactPlan, history: LoadHistory[Any]) -> bool:
+    """Whether each load of a history exceeds those before it."""
+    loadings = (*history.loadings(), plan.scene.loading)
+    loads = [0.0]
+    for one in loadings:
+        pressure = one.mean_pressure(plan.grid.area)
+        loads.append((one.imposed_approach if pressure is None else pressure) or 0.0)
+    return all(before < after for before, after in pairwise(loads))
 
 
 def _refused(what: str, reason: str) -> NotSimulatedError:

@@ -69,7 +69,7 @@ def attracted_response(
     solver : ContactSolver
         Of the compliance.
     free : ndarray (ny, nx) of bool
-        Pixels in contact.
+        Pixels in contact, below the hardness.
     falls : ndarray (ny, nx)
         k [Pa/m] of the pixels apart, 0 on others.
     right : ndarray (ny, nx)

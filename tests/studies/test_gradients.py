@@ -125,6 +125,16 @@ def test_pixels_at_the_hardness_carry_it_whatever_else_changes():
     check_heights(scene, result, "mean_gap")
 
 
+def test_a_history_whose_loads_only_rise_has_the_slopes_of_its_last_contact():
+    history = ck.PlasticHistory(pressures=(1e6, 2e6), steps=2)
+    scene = pressed(ck.Pressing(pressure=3e6), ck.HardnessLimit(), history, solid=SOLID)
+    paths = ("interface.lower.solid.hardness", "loading.pressure")
+    result, _ = check_contact(scene, "approach", paths)
+    assert result.of(ck.PlasticHistory).plastic_work[-1] > 0.0
+    with pytest.raises(ck.NotSimulatedError, match="its energy is that of the shape"):
+        result.gradient("energy", "loading.pressure")
+
+
 def test_the_derivative_of_the_work_is_the_load():
     """Castigliano: d(1/2 pCp)/d(approach) at constant shape is the load, for an energy of p, u."""
     scene = pressed(ck.Approach(approach=1e-8), periodic=False, solid=SOLID)

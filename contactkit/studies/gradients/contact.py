@@ -95,7 +95,7 @@ def contact_gradient(
         If the contact was not solved, or the adjoint equations cannot be.
     """
     asked, plan = functional(of), result.plan
-    check_differentiable(plan)
+    check_differentiable(plan, asked.name)
     if result.status == "not converged":
         raise NotSimulatedError(f"no gradient of a contact that is not solved: {result.message}")
     scene, accuracy = plan.scene, plan.accuracy
