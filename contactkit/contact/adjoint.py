@@ -16,7 +16,7 @@ with the constant :math:`\mu` of the adjoint displacement under a load; at an ap
 :math:`(\sum\lambda + J_\delta)\, d\delta` takes the place of the last term. (Adjoint equations of
 obstacle problems: Mignot 1976; the same with dh, dC, dH and dW known for a parameter.)
 
-An attraction adds its tangent on the pixels apart (`attracted_response`), and the change of its law
+An attraction adds its tangent on the pixels apart (`attracted`), and the change of its law
 at the gaps of the contact to dJ.
 """
 
@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..errors import NotSimulatedError
-from .attracted_response import attracted_response, fall_of_tension
+from .attracted import attracted_response, fall_of_tension
 from .effects.base import (
     Attraction,
     DisplacementTerm,
@@ -42,9 +42,11 @@ from .effects.plasticity import AT_HARDNESS
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from .attracted import AttractedResponse
     from .functionals import Slopes
     from .plan import ContactPlan
     from .result import ContactResult
+    from .solver.contact_solver import Response
 
     Map = NDArray[np.float64]
 
@@ -189,6 +191,7 @@ def adjoint(plan: ContactPlan, result: ContactResult, slopes: Slopes) -> Adjoint
     of_hardness = of_tension = zero
     by_approach = 0.0
     attraction = plan.scene.effect(Attraction)
+    found: Response | AttractedResponse
     if attraction is None:
         found = solver.response(free, g, total)
     else:
@@ -196,8 +199,8 @@ def adjoint(plan: ContactPlan, result: ContactResult, slopes: Slopes) -> Adjoint
         law = attraction.prepare(solver.self_influence)
         apart = ~(result.contact | at_bound)
         falls = np.where(apart, fall_of_tension(law, result.gap), 0.0)
-        found = attracted_response(solver, free, falls, g, total)
-        of_tension = np.where(apart, found.by_tension, 0.0)
+        found = attracted = attracted_response(solver, free, falls, g, total)
+        of_tension = np.where(apart, attracted.by_tension, 0.0)
     adjoint_pressure, n_applications = found.pressure, n_applications + found.n_applications
     if at_bound.any():
         left = g - displaced(adjoint_pressure)

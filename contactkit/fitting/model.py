@@ -213,7 +213,7 @@ class Model:
             base = self.changes(values)
             for i, path in enumerate(self._paths):
                 if not path:
-                    jobs.append((Run(base | self._sets[i], self._names[i]), None))
+                    jobs.append((Run({**base, **self._sets[i]}, self._names[i]), None))
         self.runs.ahead(jobs)
 
     def _runs_of_numbers(self, values: Sequence[float]) -> Iterator[tuple[Run, Asked]]:
@@ -232,7 +232,7 @@ class Model:
         place, path = self._places[i], self._paths[i]
         paths = (*self._fields, path) if "shift" in place.sought else self._fields
         for at in (curve.x + place.value("shift", values)).tolist():
-            run = Run(base | self._sets[i] | {path: at}, self._names[i])
+            run = Run({**base, **self._sets[i], path: at}, self._names[i])
             yield run, Asked(curve.quantity, paths)
 
     @property
@@ -259,7 +259,7 @@ class Model:
         self, i: int, curve: MeasuredCurve, base: Mapping[str, Any], values: Sequence[float]
     ) -> tuple[Outcome, ReadOff]:
         """Run of a curve over a column, and the column at the positions."""
-        outcome = self.runs.outcome(Run(base | self._sets[i], self._names[i]))
+        outcome = self.runs.outcome(Run({**base, **self._sets[i]}, self._names[i]))
         x = curve.x + self._places[i].value("shift", values)
         stiffness = self._places[i].value("stiffness", values)
         return outcome, read_off(outcome, curve, x, stiffness)
@@ -334,7 +334,7 @@ class Model:
         at = curve.x + place.value("shift", values) - softness * found.values
         rows = np.zeros((len(self.parameters), at.size))
         if self._fields:
-            run = Run(base | self._sets[i], self._names[i])
+            run = Run({**base, **self._sets[i]}, self._names[i])
             asked = Asked(curve.quantity, self._fields, curve.over, tuple(at.tolist()))
             slopes = {} if found.is_held.any() else self.runs.slopes(run, asked)
             rows = rows + scale * self._of_fields([slopes]) * (1.0 - softness * found.slopes)

@@ -22,7 +22,7 @@ from ..studies.gradients.contact import SharedChanges
 from ..studies.gradients.curve import curve_slopes
 from ..studies.gradients.of_result import gradient_of, runs_of_gradient
 from ..studies.paths import changed
-from ..studies.run import Done, Piece, Task
+from ..studies.run import Done, Piece, Task, unpacked
 from ..studies.spread import Take, processes
 from ..studies.store import StudyPoint
 from .outcomes import Outcome, Solve, outcome_of
@@ -68,7 +68,7 @@ class Asked(NamedTuple):
 
 @frozen(eq=False)
 class Solver:
-    """How a scene is run; `has_slopes` where its results are those of the scene itself."""
+    """Scene and the function that runs it; with `has_slopes` its results are those of the scene."""
 
     scene: Any
     accuracy: Accuracy
@@ -94,7 +94,7 @@ class Solver:
         return Solver, (self.scene, self.accuracy, self.solve, self.has_slopes)
 
     def result(self, run: Run) -> Any:
-        """What a run returns; an error of it is raised."""
+        """Return the result of a run; an error of it is raised."""
         scene = changed(self.scene, self.accuracy, run.changes).scene
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ValidityWarning)  # the fit states the numbers itself
@@ -214,7 +214,7 @@ class Runs:
             if done.point.status == "failed":
                 raise ContactkitError(f"a run of the fit failed: {done.point.message}")
             if done.maps is not None:
-                self._take(missing[done.place], pickle.loads(done.maps))
+                self._take(missing[done.place], unpacked(done.maps))
 
         size = math.ceil(len(missing) / (_PIECES * self._n_workers))
         tasks = [

@@ -35,6 +35,7 @@ __all__ = [
     "put",
     "run_in_worker",
     "run_remotely",
+    "unpacked",
 ]
 
 _PINNED = (
@@ -181,6 +182,11 @@ _LONG = 10.0
 _REPORT = 2**15
 
 _worker: dict[str, Any] = {}
+
+
+def unpacked(sent: bytes) -> Any:
+    """Return what a piece in a worker process of this one has pickled."""
+    return pickle.loads(sent)
 
 
 def run_remotely(piece: bytes) -> list[Done]:

@@ -417,7 +417,7 @@ class _Motion:
         """Maximum of the force inside a step, where its rate vanishes, and its slopes.
 
         At a part of the step that ends there; how the time of the maximum moves changes nothing.
-        The rate is that of the end of a step over its length: that by the equation of motion tells
+        The rate is that of the end of a step over its length: that by the equation of motion gives
         the time to 1e-5 only, where a stiff film magnifies what the tolerance leaves. Without a
         mass the acceleration at the start is what rounding leaves, and the cubic is taken.
         """
