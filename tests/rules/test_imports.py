@@ -40,6 +40,7 @@ FLOORS = [
     ["plot"],
     ["models"],
     ["fmu"],
+    ["live_page"],
     ["benchmarks"],
     ["models report"],
     ["app"],
