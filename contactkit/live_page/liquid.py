@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import Any
 
 from attrs import frozen
 
@@ -14,7 +13,8 @@ from ..liquids.temperature_laws import TemperatureLaw
 
 __all__ = ["LiquidTable", "liquid_table"]
 
-PROPERTIES = ("viscosity", "surface_tension", "density")
+_PROPERTIES = ("viscosity", "surface_tension", "density")
+_FINER = 8  # places between two nodes at which the error is measured
 _NODES = 65  # of an oil over 170 K: the viscosity to 1e-6
 
 
@@ -48,9 +48,7 @@ def _cubic(values: list[float], low: float, high: float, x: float) -> float:
 
 def liquid_table(liquid: Liquid) -> LiquidTable | None:
     """Properties over the range that all laws of a liquid were fitted in; None if it has no law."""
-    given: list[Any] = [
-        getattr(liquid, name) for name in (*PROPERTIES, "kinematic_viscosity") if name
-    ]
+    given = (getattr(liquid, name) for name in (*_PROPERTIES, "kinematic_viscosity"))
     laws = [law for law in given if isinstance(law, TemperatureLaw)]
     if not laws:
         return None
@@ -62,19 +60,19 @@ def liquid_table(liquid: Liquid) -> LiquidTable | None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ValidityWarning)  # round-off at the ends
             states = [liquid.at(place) for place in places]
-        known = {name: [state.given(name) for state in states] for name in PROPERTIES}
+        known = {name: [state.given(name) for state in states] for name in _PROPERTIES}
         return {
             name: [math.log(value) for value in values if value is not None]
             for name, values in known.items()
             if None not in values
         }
 
-    fine = logs(2 * _NODES - 1)
-    coarse = {name: values[::2] for name, values in fine.items()}
-    between = [low + (high - low) * (2 * i + 1) / (2 * _NODES - 2) for i in range(_NODES - 1)]
+    fine = logs(_FINER * (_NODES - 1) + 1)
+    coarse = {name: values[::_FINER] for name, values in fine.items()}
+    count = len(next(iter(fine.values()))) - 1
     error = max(
-        abs(_cubic(coarse[name], low, high, place) - fine[name][2 * i + 1])
-        for name in fine
-        for i, place in enumerate(between)
+        abs(_cubic(coarse[name], low, high, low + (high - low) * i / count) - value)
+        for name, values in fine.items()
+        for i, value in enumerate(values)
     )
     return LiquidTable(low, high, coarse, error)

@@ -103,7 +103,7 @@ def live_page(
         "generator": escape(made_by),
         "foot": escape(f"{made_by}; the kernel runs in this page, and nothing is sent anywhere"),
         # No text of a scene ends the script that holds it.
-        "data": json.dumps(data, allow_nan=False, ensure_ascii=False).replace("</", "<\\/"),
+        "data": json.dumps(data, allow_nan=False, ensure_ascii=False).replace("<", "\\u003c"),
         "kernel": packed(kernel_module()),
         **{name: (folder / name).read_text("utf-8") for name in _SCRIPTS},
     }

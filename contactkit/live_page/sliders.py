@@ -29,8 +29,9 @@ class Slider:
     """A quantity of the scene that the page moves.
 
     `paths` are the fields that take its value. `by` is the way to the kernel: as the pull, its rise
-    time or an imposed speed, as a variable (`reference`), as a property of the liquid, through the
-    temperature, or through the tables over a grid. Shown is (value - shift)/factor, in `unit`.
+    time or an imposed speed, as a variable (`port`, `reference`), as a property of the liquid,
+    through the temperature, or through the tables over a grid. Shown is (value - shift)/factor, in
+    `unit`.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Slider:
     high: float
     by: By
     scale: Scale = "log"
+    port: str = ""
     reference: int = 0
     unit: str = ""
     factor: float = 1.0
@@ -140,6 +142,7 @@ def _of_loading(kernel: KernelScene) -> Iterator[Slider]:
             high=high,
             by=field.by,
             scale="log" if value > 0.0 else "linear",
+            port=field.port,
             reference=kernel.reference(field.port),
         )
 
@@ -162,6 +165,7 @@ def _of_liquid(kernel: KernelScene, table: LiquidTable | None) -> Iterator[Slide
             low=value / 10.0 if name == "viscosity" else value / 2.0,
             high=value * 10.0 if name == "viscosity" else value * 2.0,
             by="liquid",
+            port=port,
             reference=kernel.reference(port),
         )
 
@@ -201,6 +205,7 @@ def _of_effects(kernel: KernelScene) -> Iterator[Slider]:
             low=low,
             high=value * field.span,
             by="kernel",
+            port=port,
             reference=kernel.reference(port),
         )
 

@@ -40,7 +40,11 @@ class Wasm:
 
     def said(self):
         first = self._call("ck_page_said")
-        return bytes(self.calls["memory"].read(self.store, first, first + 600)).split(b"\0")[0].decode()
+        return (
+            bytes(self.calls["memory"].read(self.store, first, first + 600))
+            .split(b"\0")[0]
+            .decode()
+        )
 
     def rows(self):
         count = self._call("ck_page_count")
@@ -64,7 +68,9 @@ class Wasm:
             rows.append(self.rows())
         self._call("ck_page_numbers")
         names = ("peak_force", "peak_time", "release_time", "release_speed", "break_time")
-        numbers = dict(zip((*names, "dissipated_work", "viscous_impulse"), self.rows()[0], strict=False))
+        numbers = dict(
+            zip((*names, "dissipated_work", "viscous_impulse"), self.rows()[0], strict=False)
+        )
         return HOW[ended], numbers | {"n_steps": self.rows()[0][8]}, np.concatenate(rows)
 
     def at(self, gap, speed):

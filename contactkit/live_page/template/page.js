@@ -198,8 +198,15 @@ function show() {
     ...Object.entries(data.missing).map(([name, why]) => row(name, `not evaluated: ${why}`, "-", {})));
 }
 
+// What the kernel says, in the words of the sliders.
+function inWords(message) {
+  const text = message.replace(/^initialization: /, "").replace(/; reset the FMU.*/, "");
+  return data.sliders.filter((s) => s.port).reduce(
+    (found, s) => found.replaceAll(new RegExp(`\\b${s.port}\\b`, "g"), s.label), text);
+}
+
 function refused(error) {
-  by("status").textContent = error.message;
+  by("status").textContent = inWords(error.message);
   by("status").className = "bad";
   charts.forEach((chart) => chart.draw([], axisNow()));
   for (const id of ["results", "validity", "verdict"]) by(id).replaceChildren();
