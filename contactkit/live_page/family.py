@@ -33,8 +33,9 @@ __all__ = ["Family", "family_of", "with_values"]
 # Nodes of Chebyshev along each of one, two, three or more quantities. Of volume and radius of a
 # film between flats, and its contact angle: 1e-3 of the meniscus force, and 180 kB.
 _NODES = {1: 9, 2: 7, 3: 5}
-_FEWEST = 4  # also along the cosine of an angle, in which forces are nearly straight
+_FEWEST = 4
 _TRIALS = 6  # places between the nodes at which the error is measured
+_HALVINGS = 6  # of a range whose ends have no answer, such as a film that spans no gap
 _PRIMES = (2, 3, 5, 7, 11)  # bases of Halton's sequence
 _WORST = 0.02  # a family that is farther off is given up, and its quantities stay as they are
 
@@ -77,14 +78,14 @@ class Family:
     def at(self, values: Sequence[float]) -> Floats:
         """Numbers at values of the quantities; as ``template/tables.js``.
 
-        Contact angles come last: what they move goes with their cosines, all else with powers.
+        Contact angles come last: forces are sums of their cosines, and products of all else.
         """
         weights = [
             _weights(nodes, slider.place(value))
             for slider, nodes, value in zip(self.sliders, self.nodes, values, strict=True)
         ]
-        cosines = sum(slider.scale == "cosine" for slider in self.sliders)
-        first, last = weights[: len(weights) - cosines], weights[len(weights) - cosines :]
+        n_angles = sum(slider.scale == "angle" for slider in self.sliders)
+        first, last = weights[: len(weights) - n_angles], weights[len(weights) - n_angles :]
         powers, angles = _products(first), _products(last)
         of = self.base[self.columns]
         changes = self.changes.reshape(len(powers), len(angles), -1)
@@ -152,8 +153,11 @@ def family_of(
 ) -> Family | str:
     """Tabulate over a grid of all sliders; the reason if a scene of the grid has no such tables."""
     made = _Nodes(kernel, accuracy, rules, span)
+    sliders = _with_answers(made, kernel.scene, sliders)
+    if not sliders:
+        return "no other geometry near it has an answer"
     most = _NODES.get(len(sliders), _FEWEST)
-    nodes = tuple(_chebyshev(s, _FEWEST if s.scale == "cosine" else most) for s in sliders)
+    nodes = tuple(_chebyshev(slider, most) for slider in sliders)
     grid = list(itertools.product(*nodes))
     found: list[Floats] = []
     try:
@@ -178,6 +182,48 @@ def family_of(
     if not error <= _WORST:
         return f"its tables would be {error:.2g} off between the nodes of their grid"
     return evolve(family, error=error)
+
+
+def _with_answers(
+    made: _Nodes, scene: SeparationScene, sliders: tuple[Slider, ...]
+) -> tuple[Slider, ...]:
+    """Sliders whose ends, and the corners of whose ranges together, have the scene's tables."""
+    size = len(made.numbers(scene))
+
+    def is_fine(values: Mapping[Slider, float]) -> bool:
+        try:
+            return len(made.numbers(with_values(scene, values))) == size
+        except ContactkitError:
+            return False
+
+    found = list[Slider]()
+    for slider in sliders:
+        low, high = (
+            _nearer(slider, end, lambda value, of=slider: is_fine({of: value}))  # type: ignore[misc]
+            for end in (slider.low, slider.high)
+        )
+        if low < high:
+            found.append(evolve(slider, low=low, high=high))
+    for _ in range(_HALVINGS):
+        corners = itertools.product(*((s.low, s.high) for s in found))
+        if all(is_fine(dict(zip(found, corner, strict=True))) for corner in corners):
+            break
+        found = [evolve(s, low=_half(s, s.low), high=_half(s, s.high)) for s in found]
+    return tuple(found)
+
+
+def _half(slider: Slider, end: float) -> float:
+    """Half way from an end of the range to the value."""
+    return slider.value_at(0.5 * (slider.place(end) + slider.place(slider.value)))
+
+
+def _nearer(slider: Slider, end: float, is_fine: Callable[[float], bool]) -> float:
+    """End of the range, or nearer to the value, where the scene has an answer."""
+    for _ in range(_HALVINGS):
+        if end == slider.value or is_fine(end):
+            return end
+        end = _half(slider, end)
+    return slider.value
 
 
 def _chebyshev(slider: Slider, count: int) -> Floats:

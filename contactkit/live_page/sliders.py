@@ -20,8 +20,9 @@ from .scene import KernelScene
 __all__ = ["Slider", "family_sliders", "sliders_of"]
 
 By = Literal["pull", "rise", "speed", "kernel", "liquid", "temperature", "family"]
-Scale = Literal["log", "linear", "cosine", "kelvin"]
-"""How a quantity is spread: by its logarithm, evenly, as its cosine, or as ln(-ln x)."""
+Scale = Literal["log", "linear", "angle", "kelvin"]
+"""How a quantity is spread: by its logarithm, evenly, or as ln(-ln x), a humidity by that of its
+Kelvin radius; angles evenly, and what they move is no power of them."""
 
 
 @frozen(kw_only=True)
@@ -50,17 +51,13 @@ class Slider:
 
     def place(self, value: float) -> float:
         """Place of a value on the scale; as ``template/tables.js``."""
-        if self.scale == "cosine":
-            return math.cos(value)
         if self.scale == "kelvin":
             return math.log(-math.log(value))
         return math.log(value) if self.scale == "log" else value
 
     def value_at(self, place: float) -> float:
         """Value at a place, within the range."""
-        if self.scale == "cosine":
-            value = math.acos(min(max(place, -1.0), 1.0))
-        elif self.scale == "kelvin":
+        if self.scale == "kelvin":
             value = math.exp(-math.exp(place))
         else:
             value = math.exp(place) if self.scale == "log" else place
@@ -264,7 +261,7 @@ def _of_surfaces(scene: SeparationScene) -> Iterator[Slider]:
     }
     for path, surface in faces.items():
         if isinstance(surface, Sphere):
-            yield _scaled("sphere_radius", (path,), "radius of the sphere", surface.radius, 3.0)
+            yield _scaled("sphere_radius", (path,), "radius of the sphere", surface.radius, 2.0)
     flats = {path: s for path, s in faces.items() if isinstance(s, Flat)}
     radii = {s.radius for s in flats.values() if s.radius}
     if interface.is_flat and interface.has_discs and len(radii) == 1:
@@ -278,7 +275,7 @@ def _of_angles(scene: SeparationScene) -> Iterator[Slider]:
         return
     lower, upper = scene.meniscus.contact_angle_lower, scene.meniscus.contact_angle_upper
     paths = tuple(f"interface.meniscus.contact_angle_{side}" for side in ("lower", "upper"))
-    made: Any = {"by": "family", "scale": "cosine", "low": 0.0}
+    made: Any = {"by": "family", "scale": "angle", "low": 0.0}
     if lower == upper <= _STEEPEST_ANGLE:
         yield Slider(
             name="angle",

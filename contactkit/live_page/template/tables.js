@@ -10,7 +10,6 @@ async function unpacked(text) {
 // family.py: numbers of the kernel, and of validity, at values of the geometry ------------------
 
 function placeOf(slider, value) {
-  if (slider.scale === "cosine") return Math.cos(value);
   if (slider.scale === "kelvin") return Math.log(-Math.log(value));
   return slider.scale === "log" ? Math.log(value) : value;
 }
@@ -26,7 +25,7 @@ function products(weights) {
 
 function numbersAt(family, sliders, values) {
   const weights = sliders.map((s, i) => lagrange(family.nodes[i], placeOf(s, values[i])));
-  const isAngle = (s) => s.scale === "cosine";
+  const isAngle = (s) => s.scale === "angle";
   const powers = products(weights.filter((_, i) => !isAngle(sliders[i])));
   const angles = products(weights.filter((_, i) => isAngle(sliders[i])));
   const found = family.base.slice(), count = family.columns.length;
