@@ -153,6 +153,7 @@ def family_of(
 ) -> Family | str:
     """Tabulate over a grid of all sliders; the reason if a scene of the grid has no such tables."""
     made = _Nodes(kernel, accuracy, rules, span)
+    sliders = tuple(sorted(sliders, key=lambda slider: slider.scale == "angle"))  # see Family.at
     sliders = _with_answers(made, kernel.scene, sliders)
     if not sliders:
         return "no other geometry near it has an answer"

@@ -10,11 +10,12 @@ from html import unescape
 
 import numpy as np
 import pytest
+from attrs import evolve
 from page_scenes import film
 from wasm import MISSING
 
 import contactkit as ck
-from contactkit.live_page.page import page_data, write_page
+from contactkit.live_page.page import write_page
 
 BROWSER = next(
     filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
@@ -30,6 +31,7 @@ FLAGS = (
     "--host-resolver-rules=MAP * ~NOTFOUND",
 )
 # What a reader would save by the buttons, written into the page.
+NAME = "film</script><b id=evil><!--<script>"  # a name that is HTML stays a name
 PROBE = """<script>addEventListener("load", () => {
 const wait = setInterval(() => {
   if (!document.body.dataset.ready) return;
@@ -88,7 +90,8 @@ def simulated(scene):
 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory):
-    path = write_page(film(), tmp_path_factory.mktemp("page") / "film.html")
+    scene = evolve(film(), name=NAME)
+    path = write_page(scene, tmp_path_factory.mktemp("page") / "film.html")
     path.write_text(path.read_text("utf-8").replace("</body>", PROBE), "utf-8")
     return path
 
@@ -110,13 +113,14 @@ def test_it_fetches_nothing(page):
     assert "import(" not in text
     assert "fetch(" not in text
     assert page.stat().st_size < 500_000
+    assert text.count("<!--") == text.count("<b id") == 0
 
 
 def test_the_page_shows_the_run_of_its_scene(page, tmp_path):
     dom = shown(page, tmp_path)
     assert_shows(dom, simulated(film()), 1e-10)
     assert "released after 147.8 µs" in dom
-    assert "out of range are" in dom
+    assert "validity: out of range: viscous over capillary pressure" in dom
     hovered = re.findall(r"</svg> [^<]*<b>([^<]+)</b>", dom)
     assert len(hovered) >= 4, "values under the pointer"
     rows = np.array(
@@ -149,7 +153,7 @@ def test_the_address_moves_the_scene(page, tmp_path, address, changed, exact):
     assert_shows(dom, simulated(scene), exact or stated)
     path = tmp_path / "saved.toml"
     path.write_text(pre(dom, "saved-toml"), "utf-8")
-    assert ck.load_scene(path) == scene
+    assert ck.load_scene(path) == evolve(scene, name=NAME)
 
 
 def test_what_the_kernel_refuses_the_page_says(page, tmp_path):
@@ -158,14 +162,3 @@ def test_what_the_kernel_refuses_the_page_says(page, tmp_path):
         r'id="status"[^>]*class="bad">gap at release must exceed gap at the start', dom
     )
     assert numbers(dom) == {}
-
-
-def test_a_name_that_is_html_stays_a_name(tmp_path):
-    from attrs import evolve
-
-    from contactkit.live_page.page import live_page
-
-    scene = evolve(film(), name="</script><b id=evil><!--<script>")
-    text = live_page(scene)
-    assert text.count("<!--") == text.count("<b id") == 0
-    assert page_data(scene)["title"] == scene.name

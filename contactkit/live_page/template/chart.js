@@ -34,7 +34,9 @@ function ticksOf(low, high, isLog, most) {
     const first = Math.ceil(Math.log10(low) - 1e-9), last = Math.floor(Math.log10(high) + 1e-9);
     const step = Math.max(1, Math.ceil((last - first + 1) / most)), found = [];
     for (let power = first; power <= last; power += step) found.push(10 ** power);
-    return found;
+    if (found.length > 2) return found;
+    const between = [1, 2, 5].flatMap((n) => [first - 1, first, last].map((power) => n * 10 ** power));
+    return [...new Set(between)].filter((value) => value >= low && value <= high).sort((a, b) => a - b);
   }
   const rough = (high - low) / most || 1, unit = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].find((n) => n * unit >= rough) * unit, found = [];

@@ -187,7 +187,7 @@ function show() {
     row(label, "", quantity(value, unit), { id: `n-${name}`, "data-value": value })));
   const outside = shown.validity.filter((one) => !(one.value >= (one.low ?? -Infinity) && one.value <= (one.high ?? Infinity)));
   by("verdict").textContent = outside.length
-    ? `validity: out of range are ${outside.map((one) => one.name).join(", ")}`
+    ? `validity: out of range: ${outside.map((one) => one.name).join(", ")}`
     : `validity: all ${shown.validity.length} numbers evaluated here are within their range`;
   by("verdict").className = outside.length ? "bad" : "";
   by("validity").replaceChildren(
