@@ -131,7 +131,7 @@ class _Nodes:
         self.tables = FixedTables(kernel.film.tables)
 
     def places(self) -> _Places:
-        """Where the columns of the tables are."""
+        """Places of the columns of the tables."""
         film = film_of(self._kernel.scene, self._accuracy, self.tables.begin())
         return _Places(self._kernel, film.tables)
 
@@ -169,8 +169,8 @@ def family_of(
                 progress((i + 1) / (len(grid) + _TRIALS))
         trials = [_trial(sliders, i) for i in range(_TRIALS)]
         right = [made.numbers(_scene_at(kernel.scene, sliders, place)) for place in trials]
-    except ContactkitError as error:
-        return str(error)
+    except ContactkitError as reason:
+        return str(reason)
     if any(len(one) != len(base) for one in (*found, *right)):
         return "the tables of its range are of several forms"
     places = made.places()

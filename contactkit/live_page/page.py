@@ -7,7 +7,6 @@ import gzip
 import json
 import math
 import re
-import tomllib
 import warnings
 from collections.abc import Callable
 from html import escape
@@ -22,7 +21,7 @@ from .._version import __version__
 from ..accuracy import Accuracy
 from ..errors import PlanError
 from ..extras import require
-from ..files.scenes import scene_text, write_whole
+from ..files.scenes import scene_text, unstructure, write_whole
 from ..scene.loading import ImposedForce
 from ..scene.scenes import SeparationScene
 from ..separation.effects.base import FilmStatus
@@ -44,7 +43,6 @@ Progress = Callable[[float], None]
 _SCRIPTS = ("page.css", "tables.js", "kernel.js", "chart.js", "page.js")
 _FREE = {"viscosity": "eta", "surface_tension": "gamma"}
 _INWARD = 0.2  # of the smallest first gap: as far as a mass may be drawn in
-_NO_TIME = 0.0  # of a page that imposes a speed
 
 
 def write_page(
@@ -85,7 +83,7 @@ def write_page(
         If ziglang is not installed (``pip install contactkit[native]``).
     """
     text = live_page(scene, accuracy, progress)
-    with write_whole(out) as temporary:
+    with write_whole(Path(out)) as temporary:
         temporary.write_text(text, encoding="utf-8")
     return Path(out)
 
@@ -135,7 +133,8 @@ def page_data(
     moved = family.sliders if isinstance(family, Family) else ()
     logs = logs_of(scene, accuracy, rules, span)
     numbers = kernel.numbers()
-    tables = tomllib.loads(scene_text(scene, "the scene of the page"))
+    scene_text(scene, "the scene of the page")  # refuses what a file could not hold whole
+    tables: dict[str, Any] = unstructure(scene)
     return {
         "title": scene.name or "Opening of a liquid film",
         "name": _file_name(scene.name),
@@ -191,15 +190,11 @@ def _file_name(title: str) -> str:
 
 def _loading(scene: SeparationScene) -> dict[str, Any]:
     loading = scene.loading
-    moves = isinstance(loading, ImposedForce)
-    return {
-        "pull": {
-            "force": loading.force if moves else 0.0,
-            "rise": loading.rise_time if moves else 0.0,
-            "limit": loading.time_limit if moves else _NO_TIME,
-        },
-        "gaps": [loading.initial_gap, loading.final_gap],
-    }
+    gaps = [loading.initial_gap, loading.final_gap]
+    if not isinstance(loading, ImposedForce):
+        return {"pull": {"force": 0.0, "rise": 0.0, "limit": 0.0}, "gaps": gaps}
+    pull = {"force": loading.force, "rise": loading.rise_time, "limit": loading.time_limit}
+    return {"pull": pull, "gaps": gaps}
 
 
 def _slider(slider: Slider, tables: dict[str, Any]) -> dict[str, Any]:

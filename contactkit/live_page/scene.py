@@ -9,7 +9,7 @@ from ..errors import PlanError
 from ..fmu.framework.ports import Port, Value
 from ..fmu.native.data import contents_of
 from ..fmu.native.film import FINE, PreparedFilm, moving, prepared_film
-from ..fmu.native.ports import native_ports
+from ..fmu.native.ports import Model, native_ports
 from ..fmu.native.records import FilmTables
 from ..fmu.native.tables import Tabulate, tabulate
 from ..scene.loading import ImposedForce, ImposedSpeed
@@ -18,7 +18,7 @@ from ..separation.deforming.effects import ElasticBodies
 
 __all__ = ["MODEL", "KernelScene", "check_scene", "film_of", "kernel_scene"]
 
-MODEL = "stiction-mass"
+MODEL: Model = "stiction-mass"
 """Model of the kernel that a page runs."""
 
 _ANY_MASS = 1.0  # [kg], of a scene whose speed is imposed: nothing is moved

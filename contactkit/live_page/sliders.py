@@ -1,9 +1,9 @@
-"""What can be moved on a live page: fields of the scene, in the field's words and units."""
+"""Sliders of a live page: fields of the scene, with labels, units and ranges."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, Literal, NamedTuple
 
 from attrs import evolve, frozen
@@ -11,6 +11,7 @@ from attrs import evolve, frozen
 from ..scene.loading import ImposedForce
 from ..scene.scenes import SeparationScene
 from ..scene.surfaces import Flat, Sphere
+from ..separation.effects.base import SeparationEffect
 from ..separation.effects.rupture import Rupture
 from ..separation.effects.viscous import ShearLimit, TensionLimit
 from ..units import readable_unit
@@ -65,7 +66,7 @@ class Slider:
 
 
 class _Field(NamedTuple):
-    """Field of the loading or of an effect: its label, how it moves, and by how much each way."""
+    """Field of the loading or of an effect: label, factor of its range, way to the kernel."""
 
     label: str
     span: float
@@ -73,7 +74,7 @@ class _Field(NamedTuple):
     port: str = ""
 
 
-# Each way by a factor: pulls and masses by ten, as results go with their roots; gaps by less, as
+# Factors up and down: pulls and masses by ten, as results go with their roots; gaps by less, as
 # beyond that another film would have been described.
 _LOADING = {
     "force": _Field("pull", 10.0, "pull"),
@@ -86,7 +87,7 @@ _LOADING = {
     "initial_speed": _Field("speed at the start", 10.0, port="v0"),
     "rise_time": _Field("rise time of the pull", 10.0, "rise"),
 }
-_EFFECTS = {
+_EFFECTS: Mapping[tuple[type[SeparationEffect], str], _Field] = {
     (TensionLimit, "strength"): _Field("tensile strength of the liquid", 10.0),
     (ShearLimit, "strength"): _Field("limiting shear strength", 10.0, port="tau_lim"),
     (Rupture, "gap"): _Field("gap at which the film breaks", 3.0, port="h_break"),

@@ -128,10 +128,9 @@ def _scaled_liquids(made: Plan) -> dict[str, SeparationScene]:
         for name in ("viscosity", "surface_tension", "density")
         if (value := state.given(name)) is not None
     }
-    more: dict[str, Any] = {"bulk_modulus": state.given("bulk_modulus")}
+    more: dict[str, Any] = {**known, "bulk_modulus": state.given("bulk_modulus")}
     made_of = {
-        name: Liquid(name=name, **more, **{**known, name: 2.0 * value})
-        for name, value in known.items()
+        name: Liquid(**{**more, name: 2.0 * value}, name=name) for name, value in known.items()
     }
     return {
         name: evolve(
@@ -190,10 +189,10 @@ def checked(
 
     `path` has the gaps and speeds of the run while the film spans the gap.
     """
-    told = {one.name: one.value for one in found}
+    known = {one.name: one.value for one in found}
     kept, missing = list[Rule](), dict(rules.missing)
     for i, rule in enumerate(rules.rules):
-        value, right = worst_of(rules, logs, i, path), told.get(rule.name)
+        value, right = worst_of(rules, logs, i, path), known.get(rule.name)
         size = abs(right or 0.0)
         if right is None or abs(value - right) > _CLOSE * size + 1e-12:
             missing[rule.name] = "it depends on the whole motion; contactkit run evaluates it"
