@@ -43,6 +43,7 @@ FLOORS = [
     ["plot"],
     ["models"],
     ["fmu"],
+    ["live_page"],
     ["benchmarks"],
     ["models report"],
     ["app"],
