@@ -92,8 +92,9 @@ def live_page(
     scene: SeparationScene, accuracy: Accuracy | None = None, progress: Progress | None = None
 ) -> str:
     """Return the text of the page of a scene; see `write_page`."""
+    checked_scene = check_scene(scene)  # a scene that no page carries needs no compiler
     require("ziglang", "a live page, whose kernel is compiled to WebAssembly,")
-    data = page_data(scene, accuracy, progress)
+    data = page_data(checked_scene, accuracy, progress)
     folder = Path(__file__).with_name("template")
     made_by = f"contactkit {__version__}"
     parts = {
