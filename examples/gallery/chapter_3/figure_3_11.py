@@ -44,8 +44,8 @@ PAGE = Page(
     "a force.",
     grid="100 gaps up to rupture; 61 gaps at the start from 0 to 1.5 nm",
     choices="Volume of the revolved arc under the paraboloid of Eq. (3.37); that under the sphere "
-    "changes the exact forces by at most 0.2 %. For a touching sphere the impulse counts from a gap of "
-    "0.165 or 0.3 nm, the cut-offs of solids and of a layer of water."
+    "changes the exact forces by at most 0.2 %. For a touching sphere the impulse counts from a "
+    "gap of 0.165 or 0.3 nm, the cut-offs of solids and of a layer of water."
     " The source's dimensionless panels are the scales on the right, F/(gamma R) and t_s F/(eta "
     "R2): it defines such numbers for flats only, Eqs. (3.42) and (3.43), and none for a sphere, "
     "whose force and impulse have no other scale without the film.",

@@ -49,10 +49,8 @@ def closed_gap(volume: float, lower: float, upper: float) -> float:
     one, last = math.radians(lower), math.pi - math.radians(upper)
     total = math.cos(one) - math.cos(last)
     ends = (math.sin(one), math.sin(last))
-    if total < 0.0:  # convex: narrowest at a body
-        narrowest = min(ends)
-    else:
-        narrowest = 1.0 if one < 0.5 * math.pi < last else max(ends)
+    hollow = 1.0 if one < 0.5 * math.pi < last else max(ends)
+    narrowest = hollow if total > 0.0 else min(ends)  # bulging: narrowest at a body
 
     def excess(gap: float) -> float:
         rho = gap / total
