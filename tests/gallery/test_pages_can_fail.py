@@ -134,6 +134,9 @@ def test_a_page_of_rough_contacts_notices_what_enters_it(name, monkeypatch):
 
 
 BY_NAME = {  # constants of a page that enter it, read anew by `compute`
+    "chapter_3.figure_1_02": ("RADIUS",),
+    "chapter_3.figure_1_03": ("RADIUS", "KNOWN"),
+    "chapter_3.figure_1_04": ("RADII", "HAMAKER"),
     "chapter_3.figure_3_07": ("GAP",),
     "chapter_3.figure_3_08": ("HEIGHT",),
     "chapter_3.figure_3_09": ("GAMMA", "HEIGHTS"),
