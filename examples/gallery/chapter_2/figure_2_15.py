@@ -187,9 +187,15 @@ def _against_second(data: Data) -> list[Check]:
             )
         ),
         agree(
-            "hardness, displacement and plastic area of II' at 4e-3 E3",
-            [data[n][1, 1, 0, -1] for n in ("hardness", "max_displacement", "plastic_fraction")],
-            data["second_soft"],
+            "hardness and displacement of II' at 4e-3 E3",
+            [data[n][1, 1, 0, -1] for n in ("hardness", "max_displacement")],
+            data["second_soft"][:2],
+        ),
+        agree(
+            "plastic area of II' at 4e-3 E3",
+            data["plastic_fraction"][1, 1, 0, -1],
+            data["second_soft"][2],
+            0.02,
         ),
     ]
 

@@ -120,7 +120,8 @@ def sphere_force(radius: float, gap: float, rim: float, lower: float, upper: flo
     def meets(phi: float, y: Array, k: float) -> float:
         return phi - (math.pi - two - math.asin(min(float(y[0]), 1.0)))
 
-    meets.terminal = True  # type: ignore[attr-defined]
+    at_the_sphere: Any = meets
+    at_the_sphere.terminal = True
 
     def missed(guess: Array) -> Array:
         start, k = guess
@@ -129,7 +130,7 @@ def sphere_force(radius: float, gap: float, rim: float, lower: float, upper: flo
             (one, math.pi),
             [start, 0.0, 0.0],
             args=(k,),
-            events=meets,
+            events=at_the_sphere,
             rtol=1e-9,
             atol=1e-14,
         )
