@@ -192,11 +192,12 @@ def check(data: Data) -> list[Check]:
             bool(abs(change) < 0.26),
             f"{100.0 * change:+.0f} %",
         ),
-        agree(
-            "smooth sphere: largest pressure, root of J2 in the layer and below it",
-            [data["smooth_pressure"].max(), *data["smooth_rows"]],
-            data["second"],
-            0.02,
+        agree("smooth sphere: pressure", data["smooth_pressure"].max(), data["second"][0]),
+        agree(  # greatest at the edge of contact, where pixels of 1.6, 2.7 and 4 um differ by 3 %
+            "smooth sphere: root of J2 in the layer and below it",
+            data["smooth_rows"],
+            data["second"][1:],
+            0.05,
         ),
     ]
 

@@ -94,7 +94,7 @@ def _so_far(height: float, pair: tuple[int, int], n: int) -> Any:
 
 
 def draw(data: dict[str, Any]) -> tuple[Figure, Figure]:
-    """What is delivered and what acts; the panels of the source."""
+    """Impulse and force of 60/60 degrees; the panels of the source."""
     return _overview(data), _pairs(data)
 
 
