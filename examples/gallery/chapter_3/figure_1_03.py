@@ -95,7 +95,7 @@ def _lagrange(degrees: float) -> float:
     """Viscosity [Pa.s] once more, by weights of the three values."""
     t = (degrees - 20.0) / 10.0
     weights = (0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0))
-    return math.prod(v**w for v, w in zip((2.42, 0.986, 0.451), weights, strict=True))
+    return float(math.prod(v**w for v, w in zip((2.42, 0.986, 0.451), weights, strict=True)))
 
 
 def check(data: dict[str, Any]) -> list[Check]:
