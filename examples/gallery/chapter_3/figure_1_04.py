@@ -103,8 +103,10 @@ def table(data: dict[str, Any]) -> Table:
 
 
 def _range(data: dict[str, Any], i: int, j: int) -> tuple[float, float]:
-    """First and last distance [nm] at which the meniscus force is the larger one."""
+    """First and last distance [nm] at which the meniscus force is the larger one; nan if none."""
     larger = np.flatnonzero(data["meniscus"][i, j] > data["solids"][i])
+    if not larger.size:
+        return np.nan, np.nan
     gaps = data["gaps"] / nm
     return float(gaps[larger[0]]), float(gaps[larger[-1]])
 
