@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
 from contactkit.elasticity.layered import compliance
 from contactkit.elasticity.stress.measures import max_principal_stress, sqrt_j2, tresca, von_mises
@@ -160,6 +161,35 @@ def test_the_principal_stress_of_the_plane_is_that_of_the_tensor_at_the_surface(
         plane = 0.5 * (s[0] + s[1]) + np.hypot(0.5 * (s[0] - s[1]), s[3])
         off = np.abs(plane - max_principal_stress(s))[np.abs(x) > 1.0].max()
         assert (off < 1e-12) == same
+
+
+def test_the_printed_radius_of_the_sphere_is_a_thousandth():
+    """Fig. 2.3: 14.7 N on a rigid sphere and a half-space of G = 79.2 GPa, nu = 0.3."""
+    stiff = 2.0 * 79.2e9 / (1.0 - 0.3)
+    found = [(6.0 * 14.7 * stiff**2 / (np.pi**3 * r**2)) ** (1.0 / 3.0) for r in (1.37e-5, 1.37e-2)]
+    np.testing.assert_allclose(found, [91.9e9, 0.919e9], rtol=1e-3)
+    young = 2.0 * 79.2e9 * 1.3
+    assert found[0] / young == pytest.approx(0.45, abs=0.01)
+
+
+def test_the_printed_moduli_of_the_sphere_are_none():
+    """Fig. 2.3: E/(2 G) - 1 is Poisson's ratio."""
+    found = [e / (2.0 * g) - 1.0 for e, g in ((4.11, 100.0), (0.929, 79.2))]
+    np.testing.assert_allclose(found, [-0.98, -0.99], atol=5e-3)
+
+
+def test_the_two_lengths_of_the_second_surface_are_two_surfaces():
+    """Fig. 2.25: slopes of the exponential autocorrelation of 0.5 and 0.05 um, waves of 156 nm."""
+    top = 2.0 * np.pi / 156.25
+
+    def slope(length):
+        def spectrum(q):
+            return (1.0 + (q * length / 2.3) ** 2) ** -1.5
+
+        power = [quad(lambda q, n=n: q**n * spectrum(q), 0.0, top)[0] for n in (1, 3)]
+        return np.sqrt(power[1] / power[0])
+
+    assert slope(50.0) / slope(500.0) == pytest.approx(2.05, abs=0.01)
 
 
 def test_the_separation_time_is_not_that_of_the_injector():

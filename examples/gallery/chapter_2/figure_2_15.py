@@ -16,7 +16,7 @@ from contactkit.elasticity.hardness_rules import (
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.curve_figure import draw_panel, labelled
 from contactkit.gallery.chapter_2.stress_maps import map_figure, maps, stacked
-from contactkit.gallery.second_method.anchors import Case, agree, pressed
+from contactkit.gallery.second_method.anchors import Case, agree, pressed, pressed_layers
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -78,7 +78,9 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
     ]
     curves = {name: np.array(values).reshape(shape) for name, values in found.items()}
     low, high = (pressed(sampling, Case(load, thickness=1e-9)) for load in (1e-5, 1e-3))
+    hardness, soft = pressed_layers(sampling, LOADS[-1], 1e-9)
     second = {
+        "second_soft": np.array([hardness, soft.max_displacement, soft.plastic_fraction(hardness)]),
         "second_moved": np.array([low.max_displacement, high.max_displacement]),
         "second_area": np.array([low.fraction, high.fraction]),
         "second_pressure": np.array([low.max_pressure, high.max_pressure]),
@@ -183,6 +185,17 @@ def _against_second(data: Data) -> list[Check]:
                 ("area", "contact_fraction", "second_area"),
                 ("pressure, at the higher load the hardness", "max_pressure", "second_pressure"),
             )
+        ),
+        agree(
+            "hardness and displacement of II' at 4e-3 E3",
+            [data[n][1, 1, 0, -1] for n in ("hardness", "max_displacement")],
+            data["second_soft"][:2],
+        ),
+        agree(
+            "plastic area of II' at 4e-3 E3",
+            data["plastic_fraction"][1, 1, 0, -1],
+            data["second_soft"][2],
+            0.02,
         ),
     ]
 

@@ -10,7 +10,7 @@ from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.curve_figure import labelled
 from contactkit.gallery.chapter_2.stress_maps import NAMES, map_figure, maps, maxima, stacked
-from contactkit.gallery.second_method.anchors import Case, agree, pressed
+from contactkit.gallery.second_method.anchors import Case, agree, pressed, pressed_layers
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -56,6 +56,9 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
     low, high = (pressed(sampling, Case(load, thickness=1e-9)) for load in (1e-5, 1e-3))
     return stacked(shown) | {
         "second_pressure": np.array([low.max_pressure, high.max_pressure]),
+        "second_soft": np.array(
+            [pressed_layers(sampling, 1e-3, 1e-9, is_inner)[0] for is_inner in (False, True)]
+        ),
         "second_stress": np.array(high.stress(shown[0]["depths"], 0.5)),
         "stress": np.array(best).reshape(*shape, len(FRICTIONS), len(NAMES)),
         "pressure": np.array(peak).reshape(shape),
@@ -126,6 +129,11 @@ def check(data: Data) -> list[Check]:
             "pressure of I' at 1e-5 and 1e-3 E3",
             data["pressure"][:2, 0, 0],
             data["second_pressure"],
+        ),
+        agree(
+            "hardness of II' and IV' at 1e-3 E3",
+            data["pressure"][1, [1, 3], 0],
+            data["second_soft"],
         ),
         agree(
             "von Mises, tension, s_xz of I' at 1e-3 E3 with friction of 0.5",

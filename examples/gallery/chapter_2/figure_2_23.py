@@ -43,7 +43,7 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
     surface, hard = rough.SURFACES[0], ck.HardnessLimit()
     film = ck.FilmMeniscus(film_thickness=1.0 * rough.NM)
     pulls = ck.FilmMeniscus(film_thickness=1.0 * rough.NM, self_consistent=True)
-    columns = ("relative_meniscus_force", "meniscus_force")
+    columns = ("relative_meniscus_force", "meniscus_force", "max_displacement")
     found = []
     for height in HEIGHTS:
         stacks = [
@@ -55,7 +55,11 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
             both = rough.curves(cases[:3], sampling(draft), LOADS, columns, hard, pulls)
     made = {name: np.array([one[name] for one in found]) for name in columns}
     every = made | {f"consistent_{name}": both[name] for name in columns}
-    return every | {"second": _second(sampling(draft), both["meniscus_force"][0, 0, 2])}
+    moved = pressed(sampling(draft), Case(1e-4, "III")).max_displacement
+    return every | {
+        "second": _second(sampling(draft), both["meniscus_force"][0, 0, 2]),
+        "second_moved": np.array(moved),
+    }
 
 
 def _second(sampling: rough.Sampling, pull: float) -> np.ndarray:
@@ -144,6 +148,14 @@ def check(data: Data) -> list[Check]:
             rough.all_above(both[:, 0], 4.0),
             f"{rough.spread(both[:, 0])} times; at the highest load {rough.spread(both[:, -1])}",
         ),
+        *_against_second(data),
+    ]
+
+
+def _against_second(data: Data) -> list[Check]:
+    """Numbers of the page by the second method."""
+    force, iii, iv = data["meniscus_force"], STRUCTURES.index("III"), STRUCTURES.index("IV")
+    return [
         agree(
             "force of I at 4e-6 E3, of III and thin IV at 1e-4, of I added to a load of 4e-5",
             [
@@ -153,6 +165,11 @@ def check(data: Data) -> list[Check]:
                 data["consistent_meniscus_force"][0, 0, 2],
             ],
             data["second"],
+        ),
+        agree(
+            "displacement of III at 1e-4 E3",
+            data["max_displacement"][0, iii, 0, 3],
+            data["second_moved"],
         ),
     ]
 

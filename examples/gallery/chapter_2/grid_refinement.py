@@ -54,13 +54,13 @@ def solved(pixels: int, shortest: float, seed: int) -> list[list[float]]:
 
 
 def stressed(sampling: rough.Sampling, name: str, per_wave: int, seed: int) -> list[float]:
-    """Largest pressure [Pa] of a structure; von Mises and tension for each friction."""
+    """Largest pressure [Pa] of a structure; von Mises, tension for each friction; displacement."""
     surface = rough.SURFACES[0]
     stack = rough.body(rough.STRUCTURES[name], (1.0, 1.0), 10.0 * surface.rms)
     made = rough.plan(surface, stack, sampling, seed, ck.HardnessLimit())
     pixels = sampling.pixels // FINER[0] * per_wave
     run = ck.solve(ck.plan(made.scene, ck.Accuracy(grid=pixels, rtol=1e-5)))
-    return [run.max_pressure, *maxima(run, FRICTIONS)[:, :2].ravel()]
+    return [run.max_pressure, *maxima(run, FRICTIONS)[:, :2].ravel(), run.max_displacement]
 
 
 def compute(draft: bool = False) -> dict[str, np.ndarray]:
@@ -84,6 +84,7 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
         "second": np.array(
             [second.max_pressure, *second.stress((0.0, 0.0), 0.5), stiff.max_pressure]
         ),
+        "second_moved": np.array(stiff.max_displacement),
         "per_wave": np.array(waves),
         "grids": np.array(grids),
         "fixed": np.array(fixed),
@@ -150,6 +151,7 @@ def check(data: Data) -> list[Check]:
             [*data["stress"][0, 0, 0, [0, 3, 4]], data["stress"][0, 0, 1, 0]],
             data["second"],
         ),
+        agree("displacement of III", data["stress"][0, 0, 1, 5], data["second_moved"]),
     ]
 
 

@@ -9,7 +9,7 @@ from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
 from contactkit.gallery.chapter_2.stress_maps import maxima
-from contactkit.gallery.second_method.anchors import Case, Solved, agree, pressed
+from contactkit.gallery.second_method.anchors import Case, Solved, agree, pressed, pressed_layers
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -24,30 +24,39 @@ PAGE = Page(
     " all; and what interlayers do there is the source's rule of hardness (Fig. 2.15).",
     choices="Thresholds on the median change against I: below 3 % none, up to 20 % one arrow, "
     "beyond two. Stiffness: layers of 10 rms heights at 4e-6 E3, shortest wave 156 nm. Hardness: "
-    "layers of one rms height at 1e-3 E3, shortest wave 39 nm, continuous rule. Friction is read "
-    "from the area, wear from the stress."
+    "layers of one rms height at 1e-3 E3, shortest wave 39 nm, continuous rule. Friction goes "
+    "with the area (one shear strength), wear with the stress of von Mises, and for hardness with "
+    "the plastic area, by which the source argues too; the area of all five surfaces together. A "
+    "suggestion is borne out if friction or wear, whichever it names, has the sign it needs."
     " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
     "between structures by 10 to 20 % (page Refinement)."
-    " The area at the lowest load is that of a few spots: Fig. 2.10 adds it over the loads. "
-    "The columns of friction, wear and suggestion follow in the source from those of area and "
-    "stress; its arrows of wear of soft and hard layers (plastic contact easy or hard) are "
-    "those of the plastic area, Figs. 2.14 and 2.15.",
+    " The area at the lowest load is that of a few spots: Fig. 2.10 adds it over the loads.",
     grid=f"stiffness: {rough.WIDE}; hardness: {rough.FINE}",
     seeds="1 to 5, each against structure I on the same surface",
 )
 NONE, ONE = 0.03, 0.2
 QUANTITIES = ("max pressure", "contact area", "meniscus force", "von Mises", "tension")
 STRUCTURES = list(rough.STRUCTURES)[1:]
-# Arrows of the source: maximum pressure, contact area, meniscus force, maximum stress.
+# Arrows of the source: maximum pressure, area, meniscus force, maximum stress, friction, wear.
 SOURCE = {
-    ("stiffness", "II"): (-2, 2, 2, -2),
-    ("stiffness", "III"): (2, -1, -2, 1),
-    ("stiffness", "IV"): (-2, 1, 1, -2),
-    ("stiffness", "V"): (1, -1, -1, 1),
-    ("hardness", "II"): (-1, 2, 2, -2),
-    ("hardness", "III"): (2, -1, -1, 1),
-    ("hardness", "IV"): (-2, 1, 1, -2),
-    ("hardness", "V"): (1, -1, -1, 2),
+    ("stiffness", "II"): (-2, 2, 2, -2, 2, -2),
+    ("stiffness", "III"): (2, -1, -2, 1, -1, 2),
+    ("stiffness", "IV"): (-2, 1, 1, -2, 1, -2),
+    ("stiffness", "V"): (1, -1, -1, 1, -1, 1),
+    ("hardness", "II"): (-1, 2, 2, -2, 2, 2),
+    ("hardness", "III"): (2, -1, -1, 1, -1, -2),
+    ("hardness", "IV"): (-2, 1, 1, -2, 1, -2),
+    ("hardness", "V"): (1, -1, -1, 2, -1, 1),
+}
+SUGGESTED = {  # by the source, in our words; the signs of friction and wear that it needs
+    ("stiffness", "II"): ("avoid", (1, 0)),
+    ("stiffness", "III"): ("less friction", (-1, 0)),
+    ("stiffness", "IV"): ("less wear", (0, -1)),
+    ("stiffness", "V"): ("a bit less friction", (-1, 0)),
+    ("hardness", "II"): ("avoid", (0, 1)),
+    ("hardness", "III"): ("less friction and wear", (-1, -1)),
+    ("hardness", "IV"): ("less wear", (0, -1)),
+    ("hardness", "V"): ("no benefit", (0, 1)),
 }
 
 
@@ -58,28 +67,36 @@ def numbers(stack: ck.Stack, sampling: rough.Sampling, load: float, seed: int) -
     run = ck.solve(made.with_loading(ck.Pressing(pressure=load * rough.MODULUS)))
     mises, tension, _ = maxima(run, (0.0,))[0]
     force = run.of(ck.FilmMeniscus).force
-    return [run.max_pressure, run.contact_area, force, float(mises), float(tension)]
+    plastic = float(run.of(ck.HardnessLimit).is_plastic.sum())
+    return [run.max_pressure, run.contact_area, force, float(mises), float(tension), plastic]
 
 
 def compute(draft: bool = False) -> dict[str, np.ndarray]:
-    """Changes (effects, structures, seeds, quantities) against I."""
-    found, first = [], []
+    """Changes (effects, structures, seeds, quantities) against I; plastic pixels of hardness."""
+    found, first, plastic = [], [], np.array([])
     for sampling, load, stacks in (
         (rough.wide(draft), 4e-6, [(m, (1.0, 1.0), 10.0) for m in rough.STRUCTURES.values()]),
         (rough.fine(draft), 1e-3, [((1.0, 1.0), h, 1.0) for h in rough.STRUCTURES.values()]),
     ):
         made = [rough.body(m, h, t * rough.NM) for m, h, t in stacks]
-        values = [[numbers(s, sampling, load, seed) for seed in sampling.seeds] for s in made]
-        found.append(rough.ratios(np.array(values))[1:] - 1.0)
-        first.append([np.array(values)[k, 0, :3] for k in (0, 3)])
+        values = np.array(
+            [[numbers(s, sampling, load, seed) for seed in sampling.seeds] for s in made]
+        )
+        plastic = values[..., 5].sum(axis=1)
+        found.append(rough.ratios(values[..., :5])[1:] - 1.0)
+        first.append(values[:, 0, :3])
     cases = [
         [pressed(rough.wide(draft), Case(4e-6, name)) for name in ("I", "IV")],
-        [pressed(rough.fine(draft), Case(1e-3, thickness=1e-9))],
+        [
+            pressed(rough.fine(draft), Case(1e-3, thickness=1e-9)),
+            pressed_layers(rough.fine(draft), 1e-3, 1e-9)[1],
+        ],
     ]
     second = [[_numbers(one) for one in ones] for ones in cases]
     return {
         "change": np.array(found),
-        "first": np.array([*first[0], first[1][0]]),
+        "plastic": plastic,
+        "first": np.array([*first[0][[0, 3]], *first[1][:2]]),
         "second": np.array([*second[0], *second[1]]),
     }
 
@@ -133,7 +150,9 @@ def check(data: Data) -> list[Check]:
         for k, name in enumerate(STRUCTURES)
     }
     stiff = [k for k in SOURCE if k[0] == "stiffness"]
-    opposite = [k for k in SOURCE for a, b in zip(ours[k], SOURCE[k], strict=False) if a * b < 0]
+    opposite = [
+        k for k in SOURCE for a, b in zip(ours[k][:4], SOURCE[k][:4], strict=True) if a * b < 0
+    ]
     soft = np.abs(data["change"][1][..., 1:3]).max()
     return [
         Check(
@@ -158,23 +177,82 @@ def check(data: Data) -> list[Check]:
             bool(soft < 0.05),
             f"at most {100.0 * soft:.2f} %",
         ),
-        agree("pressure, area, force of I, IV and I'", data["first"], data["second"]),
+        *_of_suggestions(data),
+        agree("pressure, area, force of I, IV, I' and II'", data["first"], data["second"]),
+    ]
+
+
+def _friction_and_wear(data: Data) -> dict[tuple[str, str], tuple[int, int]]:
+    """Arrows of friction, as the area, and of wear, as von Mises or the plastic area."""
+    medians, plastic = np.median(data["change"], axis=2), _plastic(data)
+    return {
+        (effect, name): (
+            arrows(float(medians[i, k, 1])),
+            arrows(float(plastic[k] if effect == "hardness" else medians[i, k, 3])),
+        )
+        for i, effect in enumerate(("stiffness", "hardness"))
+        for k, name in enumerate(STRUCTURES)
+    }
+
+
+def _plastic(data: Data) -> np.ndarray:
+    """Change of the plastic area of all surfaces against I', which counts as a pixel at least."""
+    changed: np.ndarray = data["plastic"][1:] / max(data["plastic"][0], 1.0) - 1.0
+    return changed
+
+
+def _borne_out(needs: tuple[int, int], found: tuple[int, int]) -> bool:
+    """Whether friction and wear have the signs that a suggestion needs."""
+    return all(a == 0 or a * b > 0 for a, b in zip(needs, found, strict=True))
+
+
+def _of_suggestions(data: Data) -> list[Check]:
+    """Which suggestions of the source rest on what is computed."""
+    found, plastic = _friction_and_wear(data), _plastic(data)
+    stand = {key: _borne_out(needs, found[key]) for key, (_, needs) in SUGGESTED.items()}
+    return [
+        Check(
+            "stiffness: all four suggestions rest on our arrows of area and von Mises",
+            all(ok for (effect, _), ok in stand.items() if effect == "stiffness"),
+            "; ".join(f"{n} {list(v)}" for (e, n), v in found.items() if e == "stiffness"),
+        ),
+        Check(
+            "hardness: soft layers have more plastic area, hard ones less, as the source states; "
+            "so do soft and hard interlayers, against its arrows of wear",
+            bool((plastic[[0, 2]] > ONE).all() and (plastic[[1, 3]] < -ONE).all()),
+            ", ".join(f"{n}' {100.0 * x:+.0f} %" for n, x in zip(STRUCTURES, plastic, strict=True)),
+        ),
+        Check(
+            "hardness: of the suggestions only that against soft layers rests on our arrows, that "
+            "for hard layers for its half of wear",
+            [stand["hardness", n] for n in STRUCTURES] == [True, False, False, False]
+            and found["hardness", "III"][1] < 0,
+            "; ".join(f"{n}' {list(v)}" for (e, n), v in found.items() if e == "hardness"),
+        ),
     ]
 
 
 def table(data: Data) -> Table:
     """Arrows of ours beside those of the source."""
-    medians = np.median(data["change"], axis=2)
+    medians, found = np.median(data["change"], axis=2), _friction_and_wear(data)
     rows = []
     for i, effect in enumerate(("stiffness", "hardness")):
         for k, name in enumerate(STRUCTURES):
-            source = (*SOURCE[effect, name], SOURCE[effect, name][3])
+            source = (*SOURCE[effect, name][:4], SOURCE[effect, name][3])
             cells = [
                 f"{100.0 * x:+.1f} %: {shown(arrows(float(x)))} (source {shown(s)})"
                 for x, s in zip(medians[i, k], source, strict=True)
             ]
-            rows.append((effect, name, *cells))
-    return Table(("effect", "structure", *QUANTITIES), rows)
+            more = [
+                f"{shown(a)} (source {shown(b)})"
+                for a, b in zip(found[effect, name], SOURCE[effect, name][4:], strict=True)
+            ]
+            text, needs = SUGGESTED[effect, name]
+            stands = "yes" if _borne_out(needs, found[effect, name]) else "no"
+            prime = "'" if effect == "hardness" else ""
+            rows.append((effect, name + prime, *cells, *more, f"{text}: {stands}"))
+    head = ("friction, as the area", "wear", "suggested by the source: borne out")
+    return Table(("effect", "structure", *QUANTITIES, *head), rows)
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ import numpy as np
 import contactkit as ck
 from contactkit.app.gallery.page import Check, Page
 from contactkit.app.gallery.run import run_page
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters, series
 from contactkit.units import celsius, mm, nm
@@ -104,6 +105,11 @@ def check(data: dict[str, Any]) -> list[Check]:
             "that force exceeds the load of the experiment",
             _saturated() > 0.87e-3,
             f"{_saturated() * 1e3:.2f} mN against 0.67 to 0.87 mN",
+        ),
+        agree(
+            "force of the smooth pin at 95 %, 4 pi R gamma",
+            np.interp(0.95, humidity, data["force"][0]),
+            4.0 * math.pi * 2e-3 * 72.74e-3,
         ),
     ]
 

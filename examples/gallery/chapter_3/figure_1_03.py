@@ -11,6 +11,7 @@ import numpy as np
 import contactkit as ck
 from contactkit.app.gallery.page import Check, Page
 from contactkit.app.gallery.run import run_page
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.lubrication.squeeze_film import sphere_impulse_flooded
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters, series
@@ -90,6 +91,13 @@ def draw(data: dict[str, Any]) -> Figure:
     return figure
 
 
+def _lagrange(degrees: float) -> float:
+    """Viscosity [Pa.s] once more, by weights of the three values."""
+    t = (degrees - 20.0) / 10.0
+    weights = (0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0))
+    return float(math.prod(v**w for v, w in zip((2.42, 0.986, 0.451), weights, strict=True)))
+
+
 def check(data: dict[str, Any]) -> list[Check]:
     """Force times time over viscosity is one number; that of the closed form."""
     number = data["times"] * data["pulls"] / data["viscosity"][:, None]
@@ -116,6 +124,11 @@ def check(data: dict[str, Any]) -> list[Check]:
             "4 degC change the force by two fifths",
             1.3 < ratio < 1.5,
             f"{ratio:.2f} times",
+        ),
+        agree(
+            "force times time at 18 and 22 degC, viscosity by Lagrange's parabola",
+            data["times"][:, 0] * data["pulls"][0],
+            [6.0 * math.pi * 1e-4 * math.log(100.0) * _lagrange(one) for one in (18.0, 22.0)],
         ),
     ]
 

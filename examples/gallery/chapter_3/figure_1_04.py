@@ -12,6 +12,7 @@ from contactkit.app.gallery.page import Check, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.capillary.exact.bridge import bridge_at_pressure
 from contactkit.capillary.kelvin import kelvin_radius
+from contactkit.gallery.second_method.anchors import agree
 from contactkit.plot import style as plot
 from contactkit.plot.gallery import Figure, letters, series
 from contactkit.units import celsius, deg, nm
@@ -102,10 +103,22 @@ def table(data: dict[str, Any]) -> Table:
 
 
 def _range(data: dict[str, Any], i: int, j: int) -> tuple[float, float]:
-    """First and last distance [nm] at which the meniscus force is the larger one."""
+    """First and last distance [nm] at which the meniscus force is the larger one; nan if none."""
     larger = np.flatnonzero(data["meniscus"][i, j] > data["solids"][i])
+    if not larger.size:
+        return np.nan, np.nan
     gaps = data["gaps"] / nm
     return float(gaps[larger[0]]), float(gaps[larger[-1]])
+
+
+def _thin_film(radius: float, gap: float, humidity: float) -> float:
+    """Force [N] of a film much thinner than wide, 4 pi R gamma cos(theta) less that of its gap.
+
+    Its curvature along the circle, which is left out, is 1.5 % of it here.
+    """
+    kelvin = 72.74e-3 * 18.05e-6 / (8.314 * 293.15 * -np.log(humidity))
+    cosine = np.cos(np.radians(20.0))
+    return float(4.0 * np.pi * radius * 72.74e-3 * cosine * (1.0 - 0.5 * gap / (kelvin * cosine)))
 
 
 def check(data: dict[str, Any]) -> list[Check]:
@@ -129,6 +142,15 @@ def check(data: dict[str, Any]) -> list[Check]:
             "at 10 % it ends below 0.5 nm, so that the statement needs moist air",
             all(ranges[i, 0][1] < 0.5 for i in range(3)),
             f"{', '.join(f'{ranges[i, 0][1]:.2f}' for i in range(3))} nm",
+        ),
+        agree(
+            "at 0.2 nm on 1 um and 50 %: van der Waals force, meniscus of a thin film",
+            [
+                float(np.interp(0.2 * nm, data["gaps"], one))
+                for one in (data["solids"][2], data["meniscus"][2, 1])
+            ],
+            [1e-19 * 1e-6 / (6.0 * 0.2e-9**2), _thin_film(1e-6, 0.2e-9, 0.5)],
+            0.02,
         ),
     ]
 

@@ -41,14 +41,15 @@ PAGE = Page(
     "speed as the fifth power of the gap, from 50 to 109 times its mean (355 times, were "
     "rupture at the closed neck of 180 nm). The printed film keeps its radius although it keeps "
     "its volume; drawn in, it delivers half of that impulse. That the angles matter little "
-    "follows: 94 % of the impulse is reached at twice the initial gap, long before rupture.",
-    grid="120 gaps from h0 to the limit of stability, 60/60 degrees; rupture of all four pairs",
-    choices="The film is a disc of the volume pi x^2 h0; constant speed in panel (c)."
-    " Curves and panels are of 60/60 degrees only; 0/60, 120/120 and 180/120 of the source's "
-    "panels are the values at rupture of panel (d).",
+    "follows: 94 % of the impulse is reached at twice the initial gap, long before rupture. Of "
+    "unlike angles the same curve only ends earlier.",
+    grid="120 gaps from h0 to the limit of stability and the closed neck, four pairs of angles",
+    choices="The film is a disc of the volume pi x^2 h0; constant speed in panel (c) of the first "
+    "figure. The second one has the panels of the source.",
 )
 
 
+_MEAN = "impulse so far over t_s [nN]"
 _FILMS = (2e-9, 3e-9, 4e-9, 5e-9, 6e-9)  # of the caption once more, for the second method
 
 
@@ -71,6 +72,8 @@ def compute(draft: bool = False) -> dict[str, Any]:
         )
         data[f"limit_{i}"] = np.array([limit, closed])
     for pair in PAIRS:
+        for i, height in enumerate(HEIGHTS.tolist()):
+            data[f"{key(pair)}_{i}"] = _so_far(height, pair, 40 if draft else 120)
         at_break = []
         for height in HEIGHTS.tolist():
             limit, closed = break_gaps(volume(height, pair), pair)
@@ -81,7 +84,50 @@ def compute(draft: bool = False) -> dict[str, Any]:
     return data
 
 
-def draw(data: dict[str, Any]) -> Figure:
+def _so_far(height: float, pair: tuple[int, int], n: int) -> Any:
+    """Gaps up to the closed neck, impulse over time as printed and right; nan when broken."""
+    limit, closed = break_gaps(volume(height, pair), pair)
+    gaps = separations(height, sorted({limit, closed}), n)
+    printed = viscous_flat_3_19(RADIUS, height, gaps, TIME, VISCOSITY)
+    right = disc_impulse_conserved(math.pi * RADIUS**2 * height, height, gaps, VISCOSITY) / TIME
+    return np.array([gaps, printed, np.where(gaps <= limit, right, np.nan)])
+
+
+def draw(data: dict[str, Any]) -> tuple[Figure, Figure]:
+    """Impulse and force of 60/60 degrees; the panels of the source."""
+    return _overview(data), _pairs(data)
+
+
+def _pairs(data: dict[str, Any]) -> Figure:
+    """Impulse so far of all pairs, and its number, wetting ones on the left."""
+    figure, panels = plot.figure(2, 2, size=(9.6, 8.4), sharex=True)
+    for column, pairs in zip(panels.T, (PAIRS[:2], PAIRS[2:]), strict=True):
+        for pair, sign, wide in zip(pairs, ("o", "s"), (1.0, 2.2), strict=True):
+            for i, color in enumerate(SHADES):
+                gaps, *both = data[f"{key(pair)}_{i}"]
+                for values, style in zip(both, (":", "-"), strict=True):
+                    number = viscous_number_3_43(values, RADIUS, HEIGHTS[i], TIME, VISCOSITY)
+                    last = int(np.flatnonzero(np.isfinite(values))[-1])
+                    for ax, shown in zip(column, (number, values / nm), strict=True):
+                        x = (gaps - gaps[0]) / nm
+                        ax.plot(x, shown, style, color=color, lw=0.7 * wide)
+                        ax.plot(x[last], shown[last], sign, color=color, ms=5, mfc="none")
+        for ax, label in zip(column, ("number of Eq. (3.43)", _MEAN), strict=True):
+            ax.set(xscale="log", xlim=(0.02, 300.0), xlabel="separation [nm]", ylabel=label)
+        column[0].set_ylim(0.0, 1.05)
+        column[1].set(yscale="log", ylim=(0.3, 1000.0))
+        for pair, sign in zip(pairs, ("o", "s"), strict=True):
+            label = f"rupture, {pair[0]}/{pair[1]} deg"
+            column[0].plot([], [], sign, color="0.2", mfc="none", label=label)
+        plot.legend(column[0], fontsize=8, loc="upper left")
+    styles = [("volume kept, exact rupture", "-"), ("printed, closed neck", ":")]
+    heights_legend(panels[1, 0], styles, loc="lower right")
+    names = ("wetting, dimensionless", "wetting", "non-wetting, dimensionless", "non-wetting")
+    letters(list(panels.T.flat), list(names))
+    return figure
+
+
+def _overview(data: dict[str, Any]) -> Figure:
     """Impulse over time, the number of Eq. (3.43), the force itself, values at rupture."""
     figure, panels = plot.figure(2, 2, size=(9.6, 8.0))
     (mean, number), (force, at_break) = panels
@@ -104,7 +150,7 @@ def draw(data: dict[str, Any]) -> Figure:
         at_break.plot(HEIGHTS / nm, printed, ":", marker=marker, color=color, mfc="none")
     for ax in (mean, number, force):
         ax.set(xscale="log", xlim=(0.02, 300.0), xlabel="separation [nm]")
-    mean.set(yscale="log", ylabel="impulse so far over t_s [nN]", ylim=(0.3, 1000.0))
+    mean.set(yscale="log", ylabel=_MEAN, ylim=(0.3, 1000.0))
     number.set(ylabel="number of Eq. (3.43)", ylim=(0.0, 1.05))
     force.set(yscale="log", ylabel="viscous force [nN]", ylim=(1e-3, 3e5))
     at_break.set(yscale="log", ylabel="impulse over t_s at rupture [nN]", xlabel="h0 [nm]")
@@ -173,11 +219,48 @@ def check(data: dict[str, Any]) -> list[Check]:
             all(abs(t - 15.0 / 16.0) < 0.01 for t in twice),
             f"{ratio_text(twice)} of the whole",
         ),
+        _unlike(data),
+        *_of_closed_necks(data),
         agree(
             "impulse over the time at rupture, 60/60",
             at[:, 1],
             [bridges.disc_impulse(math.pi * 1e-14 * h, h) / 1e-7 for h in _FILMS],
         ),
+    ]
+
+
+def _ends(data: dict[str, Any], row: int) -> Any:
+    """Last gaps [m] of the curves of a law, (pairs, heights)."""
+    curves = [[data[f"{key(pair)}_{i}"] for i in range(len(HEIGHTS))] for pair in PAIRS]
+    return np.array([[c[0][np.isfinite(c[row])].max() for c in one] for one in curves])
+
+
+def _unlike(data: dict[str, Any]) -> Check:
+    """Unlike pairs end first, by either end."""
+    rows = [_ends(data, row) for row in (1, 2)]
+    return Check(
+        "the film of unlike angles breaks before that of like ones, at every height, by the closed "
+        "neck and by the exact limit",
+        all(bool((one[1] < one[0]).all() and (one[3] < one[2]).all()) for one in rows),
+        "; ".join(
+            f"{name} 0/60 at {one[1, 0] / one[0, 0]:.2f} of the gap of 60/60, 180/120 at "
+            f"{one[3, 0] / one[2, 0]:.2f} of 120/120"
+            for name, one in zip(("closed neck:", "exact:"), rows, strict=True)
+        ),
+    )
+
+
+def _of_closed_necks(data: dict[str, Any]) -> list[Check]:
+    """Ends of the printed curves, and the values there, by the second method."""
+    ours = _ends(data, 1)[:, [0, 4]]
+    films = [(pair, h) for pair in PAIRS for h in (2e-9, 6e-9)]
+    gaps = [bridges.closed_gap(bridges.arc_volume(1e-7, h, *pair), *pair) for pair, h in films]
+    last = [[data[f"{key(pair)}_{i}"][1, -1] for i in (0, 4)] for pair in PAIRS]
+    scale = 0.75 * math.pi * bridges.VISCOSITY * 1e-28 / bridges.TIME
+    second = [scale * (h**-2 - gap**-2) for (_, h), gap in zip(films, gaps, strict=True)]
+    return [
+        agree("gap of the closed neck, four pairs, 2 and 6 nm", ours, gaps),
+        agree("printed impulse over the time at the closed neck", last, second),
     ]
 
 

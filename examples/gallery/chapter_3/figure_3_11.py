@@ -9,6 +9,7 @@ import numpy as np
 from contactkit.app.gallery.page import Check, Page
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_3.films import (
+    GAMMA,
     HEIGHTS,
     RADIUS,
     SHADES,
@@ -42,10 +43,12 @@ PAGE = Page(
     "start the figure depends on a cut-off that is not stated. It is the impulse over t_s, not "
     "a force.",
     grid="100 gaps up to rupture; 61 gaps at the start from 0 to 1.5 nm",
-    choices="Volume of the revolved arc. For a touching sphere the impulse counts from a gap of "
-    "0.165 or 0.3 nm, the cut-offs of solids and of a layer of water."
-    " The source's dimensionless panels are left out: force over gamma R and t_s F over eta R2 "
-    "are these curves in other units.",
+    choices="Volume of the revolved arc under the paraboloid of Eq. (3.37); that under the sphere "
+    "changes the exact forces by at most 0.2 %. For a touching sphere the impulse counts from a "
+    "gap of 0.165 or 0.3 nm, the cut-offs of solids and of a layer of water."
+    " The source's dimensionless panels are the scales on the right, F/(gamma R) and t_s F/(eta "
+    "R2): it defines such numbers for flats only, Eqs. (3.42) and (3.43), and none for a sphere, "
+    "whose force and impulse have no other scale without the film.",
 )
 
 STARTS = (0.0, 1 * nm)
@@ -96,6 +99,8 @@ def draw(data: dict[str, Any]) -> Figure:
             ax.set(xscale="log", xlim=(0.01, 200.0), xlabel="separation [nm]")
         top.set(ylabel="meniscus force [nN]", ylim=(0.0, 62.0))
         middle.set(ylabel="impulse so far over t_s [nN]", ylim=(0.0, None))
+        _scale(top, GAMMA * RADIUS, "F / (gamma R)")
+        _scale(middle, VISCOSITY * RADIUS**2 / TIME, "t_s F / (eta R^2)")
     heights_legend(
         panels[0, 0], [("exact", "-"), ("arc", "--"), ("printed (3.12)", ":")], symbol="s0"
     )
@@ -126,6 +131,14 @@ def draw(data: dict[str, Any]) -> Figure:
         ],
     )
     return figure
+
+
+def _scale(ax: Any, unit: float, label: str) -> None:
+    """Second ordinate: the force [nN] over a unit [N]."""
+    shown = ax.secondary_yaxis(
+        "right", functions=(lambda y: y * nm / unit, lambda y: y * unit / nm)
+    )
+    shown.set_ylabel(label)
 
 
 def check(data: dict[str, Any]) -> list[Check]:
@@ -197,6 +210,15 @@ def _against_second(data: dict[str, Any]) -> list[Check]:
             "impulse over the time, from 1 nm, s0 = 2 and 6 nm",
             [data[f"viscous_1_{i}"][0][-1] for i in (0, 4)],
             [bridges.sphere_impulse(100e-9, 1e-9, s) / 1e-7 for s in (2e-9, 6e-9)],
+        ),
+        agree(
+            "exact force at gaps of 0 and 1 nm, s0 = 2 and 6 nm",
+            [data[f"meniscus_{j}_{i}"][1, 0] for j in (0, 1) for i in (0, 4)],
+            [
+                bridges.sphere_force(100e-9, gap, s, 60.0, 60.0)
+                for gap in (0.0, 1e-9)
+                for s in (2e-9, 6e-9)
+            ],
         ),
     ]
 

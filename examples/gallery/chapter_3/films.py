@@ -77,7 +77,7 @@ def angles(pair: Sequence[float]) -> tuple[float, float]:
     return pair[0] * deg, pair[1] * deg
 
 
-def volume(gap: float, pair: Sequence[int], radius: float = RADIUS) -> float:
+def volume(gap: float, pair: Sequence[float], radius: float = RADIUS) -> float:
     """Volume [m3] of the arc between flats with a contact circle on the lower one."""
     return arc_flat.volume(arc_flat.shape(*angles(pair)), gap, radius)
 
@@ -89,7 +89,7 @@ def sphere_volume(
     return film_volume(radius, gap, height, *angles(pair))
 
 
-def break_gaps(liquid: float, pair: Sequence[int]) -> tuple[float, float]:
+def break_gaps(liquid: float, pair: Sequence[float]) -> tuple[float, float]:
     """Gaps [m] at which a bridge between flats breaks: exact limit, neck of the arc closed."""
     pair_of = angles(pair)
     closed = arc_flat.zero_neck_gap(arc_flat.shape(*pair_of), liquid)

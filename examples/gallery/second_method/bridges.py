@@ -22,6 +22,8 @@ __all__ = [
     "equal_area",
     "film_force",
     "lens_impulse",
+    "paraboloid_volume",
+    "sphere_force",
     "sphere_impulse",
 ]
 
@@ -43,17 +45,28 @@ def arc_volume(radius: float, gap: float, lower: float, upper: float) -> float:
 
 
 def closed_gap(volume: float, lower: float, upper: float) -> float:
-    """Gap [m] at which the neck of the arc of a volume [m3] closes, if it has a neck."""
-    one = math.radians(lower)
-    total = math.cos(one) + math.cos(math.radians(upper))
+    """Gap [m] at which the arc of a volume [m3] closes where it is narrowest."""
+    one, last = math.radians(lower), math.pi - math.radians(upper)
+    total = math.cos(one) - math.cos(last)
+    ends = (math.sin(one), math.sin(last))
+    hollow = 1.0 if one < 0.5 * math.pi < last else max(ends)
+    narrowest = hollow if total > 0.0 else min(ends)  # bulging: narrowest at a body
 
     def excess(gap: float) -> float:
         rho = gap / total
-        return arc_volume(rho * (1.0 - math.sin(one)), gap, lower, upper) - volume
+        return arc_volume(rho * (narrowest - math.sin(one)), gap, lower, upper) - volume
 
     size = volume ** (1.0 / 3.0)
     found: float = brentq(excess, 1e-2 * size, 30.0 * size, xtol=1e-6 * size)
     return found
+
+
+def _meridian(phi: float, y: Array, k: float) -> list[float]:
+    """Slopes of radius, height and volume of a bridge of a curvature over the angle."""
+    x, _, _ = y
+    rho = 1.0 / (k + math.sin(phi) / x)
+    dz = rho * math.sin(phi)
+    return [-rho * math.cos(phi), dz, math.pi * x * x * dz]
 
 
 def bridge_force(volume: float, gap: float, lower: float, upper: float) -> float:
@@ -61,16 +74,10 @@ def bridge_force(volume: float, gap: float, lower: float, upper: float) -> float
     one, two = math.radians(lower), math.radians(upper)
     start = math.sqrt(volume / (math.pi * gap))  # of a cylinder
 
-    def meridian(phi: float, y: Array, k: float) -> list[float]:
-        x, _, _ = y
-        rho = 1.0 / (k + math.sin(phi) / x)
-        dz = rho * math.sin(phi)
-        return [-rho * math.cos(phi), dz, math.pi * x * x * dz]
-
     def missed(guess: Array) -> Array:
         radius, k = guess
         end = solve_ivp(
-            meridian, (one, math.pi - two), [radius, 0.0, 0.0], args=(k,), rtol=1e-9, atol=1e-12
+            _meridian, (one, math.pi - two), [radius, 0.0, 0.0], args=(k,), rtol=1e-9, atol=1e-12
         ).y[:, -1]
         return np.array([end[1] * start / gap - 1.0, end[2] * start**3 / volume - 1.0])
 
@@ -80,6 +87,65 @@ def bridge_force(volume: float, gap: float, lower: float, upper: float) -> float
         raise RuntimeError(f"the second method found no bridge: {found.message}")
     radius, k = found.x
     return float(GAMMA * start * math.pi * (radius * radius * k + 2.0 * radius * math.sin(one)))
+
+
+def paraboloid_volume(
+    radius: float, gap: float, rim: float, lower: float, upper: float
+) -> tuple[float, float, float]:
+    """Volume [m3] of the arc under a paraboloid; its circle on the flat and its radius [m].
+
+    `radius` [m] is that at the apex, `rim` [m] the height of the upper contact circle.
+    """
+    one, wet = math.radians(lower), math.sqrt(2.0 * radius * (rim - gap))
+    tilt = math.radians(upper) + math.atan(wet / radius)
+    rho = rim / (math.cos(one) + math.cos(tilt))
+    axis = wet + rho * math.sin(tilt)
+
+    def slice_of(phi: float) -> float:
+        return (axis - rho * math.sin(phi)) ** 2 * rho * math.sin(phi)
+
+    body = math.pi * wet**4 / (4.0 * radius)
+    found: float = math.pi * quad(slice_of, one, math.pi - tilt)[0] - body
+    return found, axis - rho * math.sin(one), rho
+
+
+def sphere_force(radius: float, gap: float, rim: float, lower: float, upper: float) -> float:
+    """Force [N] of the exact bridge under a sphere, of the volume of the arc of a paraboloid.
+
+    Lengths are over the radius of the sphere; `rim` [m] as in `paraboloid_volume`.
+    """
+    volume, circle, rho = paraboloid_volume(radius, gap, rim, lower, upper)
+    one, two = math.radians(lower), math.radians(upper)
+
+    def meets(phi: float, y: Array, k: float) -> float:
+        return phi - (math.pi - two - math.asin(min(float(y[0]), 1.0)))
+
+    at_the_sphere: Any = meets
+    at_the_sphere.terminal = True
+
+    def missed(guess: Array) -> Array:
+        start, k = guess
+        path = solve_ivp(
+            _meridian,
+            (one, math.pi),
+            [start, 0.0, 0.0],
+            args=(k,),
+            events=at_the_sphere,
+            rtol=1e-9,
+            atol=1e-14,
+        )
+        x, z, liquid = path.y[:, -1]
+        deep = 1.0 - math.sqrt(1.0 - x * x)
+        body = math.pi * deep**2 * (1.0 - deep / 3.0)
+        return np.array(
+            [z / (gap / radius + deep) - 1.0, (liquid - body) * radius**3 / volume - 1.0]
+        )
+
+    found = root(missed, [circle / radius, radius / rho - radius / circle], tol=1e-9)
+    if not found.success:
+        raise RuntimeError(f"the second method found no bridge: {found.message}")
+    start, k = found.x
+    return float(GAMMA * radius * math.pi * (start * start * k + 2.0 * start * math.sin(one)))
 
 
 def film_force(radius: float, gap: float, lower: float, upper: float) -> float:
