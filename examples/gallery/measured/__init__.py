@@ -15,6 +15,12 @@ film_forces       Films: Stefan, Reynolds, Brenner, Goldman.
 film_moduli       Film between bodies that deform, vibrating: Leroy and Charlaix.
 capillary_rough   Rough solids pulled together by condensed water: Persson.
 soft_pull         Soft spheres pulled off a film: Davis, Serayssol and Hinch.
+soft_spheres      A sphere on a film between bodies that deform, as a scene.
+unbounded_film    The same without a rim, by Galerkin's method: a second method.
+vibrating_film    Moduli by both methods, of half-spaces and layers: Leroy and Charlaix.
+sticking_sphere   A film that holds a soft sphere: Bertin, Oratis and Snoeijer.
+wet_rebound       A soft sphere thrown at a plane: Davis, Serayssol and Hinch.
+soft_approach     A sphere approaches soft layers: Wang, Dhong, Tan and Frechette.
 rough_wet_pull    A rough soft sphere pressed on a film and pulled off it.
 cold_oil          Walther's law for a cold oil, and what it does to the injector.
 """
