@@ -30,8 +30,8 @@ def listing(what: str) -> str:
 
     Examples
     --------
-    >>> print(listing("materials").splitlines()[0])
-    material   E [GPa]  nu [-]  hardness [GPa]  what
+    >>> print(listing("materials").splitlines()[1])
+    dlc                 140 GPa          0.25             15 GPa    diamond-like carbon
     """
     if what not in LISTS:
         raise DescriptionError("list", what, "be a known list", hint=nearest(what, LISTS))
@@ -61,9 +61,8 @@ def _materials() -> Rows:
     rows = []
     for name in library_names("materials.toml"):
         one = load_material(name)
-        hardness = "-" if one.hardness is None else f"{one.hardness / 1e9:g}"
-        ratio = f"{one.poisson_ratio:g}"
-        rows.append((name, f"{one.young_modulus / 1e9:g}", ratio, hardness, one.name))
+        modulus, hardness = (_number(x, "Pa") for x in (one.young_modulus, one.hardness))
+        rows.append((name, modulus, f"{one.poisson_ratio:g}", hardness, one.name))
     return rows
 
 
@@ -82,7 +81,10 @@ LISTS: dict[str, tuple[tuple[str, ...], Callable[[], Rows]]] = {
         ("liquid", "viscosity at 20 degC", "surface tension", "density", "what"),
         _liquids,
     ),
-    "materials": (("material", "E [GPa]", "nu [-]", "hardness [GPa]", "what"), _materials),
+    "materials": (
+        ("material", "Young's modulus", "Poisson's ratio", "hardness", "what"),
+        _materials,
+    ),
     "effects": (("effect", "scenes", "what"), _effects),
 }
 """Head and rows of each list, by its name."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 from attrs import evolve
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
+from ..roughness.height_maps import Trend, detrended
 from ..scene.interface import Body, Interface
 from ..scene.loading import Pressing
 from ..scene.materials import Material, Stack
@@ -41,13 +42,14 @@ def press(
     periodic: Edges | None = None,
     rtol: float = 1e-8,
     threads: int = 1,
+    detrend: Trend = "none",
 ) -> ContactResult:
     """Press a rigid rough body on a flat solid.
 
     A number may be a text with its unit: ``"100 MPa"``.
 
-    The heights are taken as given: no tilt is removed, and the message of the result states
-    theirs.
+    The heights are taken as given unless `detrend` says what to take off; the message of the result
+    states the tilt they have.
 
     Parameters
     ----------
@@ -70,6 +72,8 @@ def press(
         Largest violation of the contact conditions over the rms height [-].
     threads : int
         Threads of the transforms.
+    detrend : {"none", "mean", "tilt", "curvature"}
+        What is taken off the heights by least squares over the pixels that are no holes.
 
     Returns
     -------
@@ -110,7 +114,7 @@ def press(
         is_map = np.ndim(hardness) > 0
         given = HardnessMap(hardness) if is_map else _number(hardness, "Pa", "hardness")
         effects.append(HardnessLimit(rule=ConstantHardness(hardness=given)))
-    surface = _surface(heights, pixel_size)
+    surface = _level(_surface(heights, pixel_size), detrend)
     scene = ContactScene(
         interface=Interface(lower=Body(solid=stack), upper=Body(surface=surface)),
         window=Window(periodic=periodic),
@@ -119,7 +123,8 @@ def press(
     )
     result = solve_unwarned(plan_contact(scene, Accuracy(rtol=rtol, threads=threads)))
     warn(result.validity)
-    return evolve(result, message=f"{result.message}{_holes(surface)}; {_tilt(surface)}")
+    said = f"{_holes(surface)}; {_tilt(surface, detrend)}"
+    return evolve(result, message=f"{result.message}{said}")
 
 
 def _number(given: Any, unit: str, name: str) -> float:
@@ -147,16 +152,28 @@ def _surface(heights: Any, pixel_size: Any) -> Heights:
     return made
 
 
+def _level(surface: Heights, trend: Trend) -> Heights:
+    """Take a trend off heights; what holes are filled with is no part of it."""
+    if trend not in get_args(Trend):
+        names = ", ".join(map(repr, get_args(Trend)))
+        raise DescriptionError("press(detrend)", trend, f"be one of {names}")
+    if trend == "none":
+        return surface
+    holes = surface.holes
+    known = surface.heights if holes is None else np.where(holes, np.nan, surface.heights)
+    return evolve(surface, heights=np.ma.masked_invalid(detrended(known, trend)))
+
+
 def _holes(surface: Heights) -> str:
     if surface.holes is None:
         return ""
     return f"; {int(surface.holes.sum())} masked pixels carry no load, their gap is not known"
 
 
-def _tilt(surface: Heights) -> str:
+def _tilt(surface: Heights, trend: Trend) -> str:
     """State the tilt that is left in a map: the rise of the plane that fits it best."""
-    from ..roughness.height_maps import detrended
-
+    if trend in ("tilt", "curvature"):
+        return f"heights less their {trend}"
     given = surface.heights
     plane = detrended(given, "mean") - detrended(given, "tilt")
     rise, rms = float(np.ptp(plane)), float(np.std(given - plane))

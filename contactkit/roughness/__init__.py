@@ -2,7 +2,8 @@
 
 elementary           Heights of simple shapes: waves, spheres, paraboloids.
 random_surfaces      Random rough surfaces: exponential autocorrelation, self-affine.
-height_maps          Measured height maps: reading, validation, detrending.
+height_maps          Measured height maps: reading, validation, detrending, holes.
+text_maps            Maps as text: rows or points, below a header of Gwyddion or WSxM.
 map_fields           Sizes and units of a map, which its file states or the caller.
 surface_data_file    Surface data files of ISO 25178-71 in their text form.
 instrument_files     Formats of instruments, read by SurfaceTopography in a process of its own.

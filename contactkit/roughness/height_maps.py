@@ -1,13 +1,12 @@
 """Measured height maps: reading, validation and detrending.
 
 Heights [m] are positive out of the body, peaks up; arrays are ``[y, x]``, the first line of a file
-is the row y = 0. Maps are not modified: no hole is filled, nothing is interpolated.
+is the row y = 0. A map with holes, pixels without a height, is refused unless they are asked for.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -23,156 +22,23 @@ from ..validators import LARGEST
 from .instrument_files import MATRICES, read_instrument
 from .map_fields import given_twice, length_unit, needed
 from .surface_data_file import is_surface_data_text, read_surface_data
+from .text_maps import HOLES, read_header, read_matrix, read_points
 
 __all__ = [
     "HeightMap",
     "Trend",
     "checksum",
     "detrended",
+    "filled",
     "read_height_map",
-    "read_matrix",
-    "read_points",
 ]
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
 Trend = Literal["none", "mean", "tilt", "curvature"]
 
+_SIZES = "1e-9 or (2e-9, 1e-9) [m]"  # example of a cure
 _RESIDUE = 8.0 * float(np.finfo(np.float64).eps)  # of the heights given, that detrending leaves
-# Grid points for each that is there, above which a list of points is no map but scattered: n points
-# with coordinates of their own span n^2, and would be filled into an array of that size before
-# holes show.
-_SPARSE = 16
-# Tolerance of coordinates over the step, for values rounded in a text (three digits of a step). A
-# grid whose steps differ by more has to be resampled: slopes would be off by as much.
-_ROUNDED = 0.02
-
-
-def read_matrix(file: Path) -> Array:
-    """Numbers of a text file, (lines, columns).
-
-    Raises
-    ------
-    DescriptionError
-        If a line has another number of columns than the first, or is not numeric.
-    """
-    delimiter = _delimiter(file)
-    try:
-        return np.loadtxt(file, delimiter=delimiter, ndmin=2, encoding="utf-8-sig")
-    except ValueError as error:
-        raise _reason(file, delimiter, str(error)) from error
-
-
-def read_points(file: Path) -> tuple[Array, tuple[float, float]]:
-    """Heights (ny, nx) and pixel size (dy, dx) of a file of points x, y, z, in its own unit.
-
-    Raises
-    ------
-    DescriptionError
-        If there are not three columns, or the points do not form a complete regular grid.
-    """
-    points = read_matrix(file)
-    if points.shape[1] != 3:
-        raise DescriptionError(
-            "HeightMap.heights", f"{points.shape[1]} columns", f"be points x, y, z in {file.name}"
-        )
-    x, y, z = points.T
-    (column, nx, dx), (row, ny, dy) = _steps(x, "x", file), _steps(y, "y", file)
-    if nx * ny > _SPARSE * len(points):
-        raise DescriptionError(
-            "HeightMap.heights",
-            f"{len(points)} points",
-            f"be one for each point of the {ny} x {nx} grid of {file.name}",
-            hint="the points are no regular grid: resample them onto one",
-        )
-    times = np.bincount(row * nx + column, minlength=nx * ny)
-    if not (times == 1).all():
-        i, j = divmod(int(np.argmax(times != 1)), nx)
-        raise DescriptionError(
-            "HeightMap.heights",
-            f"{int(times[i * nx + j])} at [{i}, {j}]",
-            f"be one for each point of the {ny} x {nx} grid of {file.name}",
-            hint="fill the holes in the instrument's software, or cut out a part without any",
-        )
-    heights = np.empty((ny, nx))
-    heights[row, column] = z
-    return heights, (dy, dx)
-
-
-def _steps(values: Array, name: str, file: Path) -> tuple[NDArray[np.int64], int, float]:
-    """Grid index of each coordinate, number of grid lines, and step."""
-    if not np.isfinite(values).all():
-        raise DescriptionError(f"HeightMap.{name}", "one that is not", "be finite")
-    levels = np.unique(values)
-    gaps = np.diff(levels)
-    n = 1 + int(np.count_nonzero(gaps > 0.5 * gaps.max())) if gaps.size else 1
-    if n < 2:
-        raise DescriptionError(
-            f"HeightMap.{name}", float(levels[0]), f"take at least two values in {file.name}"
-        )
-    step = float(levels[-1] - levels[0]) / (n - 1)
-    place = (values - levels[0]) / step
-    number = np.rint(place).astype(np.int64)
-    worst = int(np.argmax(np.abs(place - number)))
-    if abs(place[worst] - number[worst]) > _ROUNDED:
-        raise DescriptionError(
-            f"HeightMap.{name}",
-            float(values[worst]),
-            f"have equal steps in {file.name}",
-            hint="resample the map onto a regular grid",
-        )
-    return number, n, step
-
-
-def _data_lines(file: Path) -> Iterator[tuple[int, str]]:
-    """Data lines with their numbers, from 1, one after the other."""
-    try:
-        with file.open(encoding="utf-8-sig") as text:
-            for number, line in enumerate(text, start=1):
-                if data := line.split("#")[0].strip():
-                    yield number, data
-    except UnicodeDecodeError as error:
-        raise DescriptionError("HeightMap.path", str(file), "be a text of numbers") from error
-
-
-def _delimiter(file: Path) -> str | None:
-    """Delimiter of the columns, from the first data line; None for spaces and tabs."""
-    _, first = next(_data_lines(file), (0, ""))
-    if not first:
-        raise DescriptionError("HeightMap.heights", "none", f"be in {file.name}")
-    return next((mark for mark in ";," if mark in first), None)
-
-
-def _reason(file: Path, delimiter: str | None, message: str) -> DescriptionError:
-    """Error that names the line that could not be read."""
-    width = 0
-    for number, line in _data_lines(file):
-        words = [word.strip() for word in line.split(delimiter)]
-        place = f"{file.name}, line {number}"
-        for column, word in enumerate(words, start=1):
-            try:
-                float(word)
-            except ValueError:
-                hint = (
-                    "write points for decimal commas"
-                    if "," in word
-                    else (
-                        "fill holes first; no line may end in a comma"
-                        if not word
-                        else "put # before lines that are no data"
-                    )
-                )
-                return DescriptionError(
-                    "HeightMap.heights", word, f"be numbers ({place}, column {column})", hint=hint
-                )
-        width = width or len(words)
-        if len(words) != width:
-            return DescriptionError(
-                "HeightMap.heights",
-                f"{len(words)} columns",
-                f"have {width} columns in each line, as in the first ({place})",
-            )
-    return DescriptionError("HeightMap.heights", message, f"be numbers ({file.name})")
 
 
 def detrended(heights: Array, trend: Trend = "tilt") -> Array:
@@ -181,7 +47,7 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
     Parameters
     ----------
     heights : ndarray (ny, nx)
-        Heights, any unit.
+        Heights, any unit; nan in holes, which are left out of the fit and stay.
     trend : {"tilt", "none", "mean", "curvature"}
         The polynomial in x and y: nothing, a constant, of degree 1, or of degree 2.
 
@@ -206,6 +72,9 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
     left = np.array(heights, dtype=np.float64)
     if trend == "none":
         return left
+    known = np.isfinite(left)
+    if not known.all():
+        return _detrended_around_holes(left, known, trend)
     left -= left.mean()
     if trend == "mean":
         return _without_residue(left, heights)
@@ -219,6 +88,47 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
         if square > 1e-12:  # a grid of one or two pixels has no tilt or no curvature
             left -= (of_y @ left @ of_x / square * of_y)[:, None] * of_x
     return _without_residue(left, heights)
+
+
+def _detrended_around_holes(heights: Array, known: NDArray[np.bool_], trend: Trend) -> Array:
+    """See `detrended`: by the normal equations of the polynomial over the pixels that are known.
+
+    Coordinates from -1 to 1, so that six terms are conditioned to some 1e3 where most pixels are
+    known; terms that few pixels cannot tell apart are left out by `lstsq`.
+    """
+    y, x = (np.linspace(-1.0, 1.0, n) for n in heights.shape)
+    powers = [(0, 0)]
+    if trend != "mean":
+        powers += [(1, 0), (0, 1)]
+    if trend == "curvature":
+        powers += [(2, 0), (0, 2), (1, 1)]
+    values = np.where(known, heights, 0.0)
+    values -= np.where(known, values.sum() / known.sum(), 0.0)
+    weights = known.astype(np.float64)
+    moments = {(i, j): y**i @ weights @ x**j for i in range(5) for j in range(5) if i + j <= 4}
+    matrix = [[moments[i + k, j + m] for k, m in powers] for i, j in powers]
+    right = [y**i @ values @ x**j for i, j in powers]
+    found, *_ = np.linalg.lstsq(np.array(matrix), np.array(right), rcond=1e-12)
+    for (i, j), factor in zip(powers, found.tolist(), strict=True):
+        values -= factor * (y**i)[:, None] * x**j
+    return np.where(known, _without_residue(values * known, heights[known]), np.nan)
+
+
+def filled(heights: Array) -> Array:
+    """Heights with that of the nearest known pixel in each hole (nan).
+
+    Examples
+    --------
+    >>> filled(np.array([[1.0, np.nan, 3.0, 4.0]]))
+    array([[1., 1., 3., 4.]])
+    """
+    from scipy.ndimage import distance_transform_edt
+
+    holes = ~np.isfinite(heights)
+    if not holes.any():
+        return heights
+    nearest = distance_transform_edt(holes, return_distances=False, return_indices=True)
+    return np.asarray(heights[tuple(nearest)])
 
 
 def _without_residue(left: Array, given: Array) -> Array:
@@ -235,7 +145,7 @@ class HeightMap(NamedTuple):
     """A measured height map."""
 
     heights: Array
-    """Heights [m], (ny, nx), peaks up."""
+    """Heights [m], (ny, nx), peaks up; nan in holes, where they were asked for."""
     pixel_size: Pair
     """Size of a pixel (dy, dx) [m]."""
     source: str
@@ -264,6 +174,7 @@ def read_height_map(
     unit: str | None = None,
     checksum: str | None = None,
     channel: int | None = None,
+    holes: bool = False,
 ) -> HeightMap:
     r"""Read a height map from a file.
 
@@ -271,9 +182,11 @@ def read_height_map(
     ending                 holds
     ====================== ==============================================================
     npy                    an array (ny, nx) of numbers; needs `pixel_size` and `unit`
-    csv txt dat tsv asc    one row per line, split by commas, semicolons, tabs or spaces;
-                           lines that begin with ``#`` are skipped; needs both as well
-    xyz                    a point x, y, z per line, on a full regular grid in any order;
+    csv txt dat tsv asc    one row per line, split by commas, semicolons, tabs or spaces,
+                           decimal commas where that is clear; lines that begin with ``#``
+                           are skipped; needs both as well, unless its header states them as
+                           those of Gwyddion and WSxM do
+    xyz                    a point x, y, z per line, on a regular grid in any order;
                            needs `unit`, that of all three
     sdf                    ISO 25178-71 as text, with its sizes, in metres; the binary form is
                            one of the others
@@ -293,6 +206,9 @@ def read_height_map(
         SHA-256 that the file must have.
     channel : int, optional
         Index of the map in an instrument file with several; default: the instrument's own.
+    holes : bool
+        Whether heights may be missing, and are nan then: empty cells, nan, points left out, what an
+        instrument marks.
 
     Raises
     ------
@@ -319,15 +235,16 @@ def read_height_map(
     size = _checked_size(pixel_size)
     ending = file.suffix.lower()
     source, is_periodic = file.name, None
-    if ending == ".npy" or ending in MATRICES:
-        size = needed(size, "pixel_size", "1e-9 or (2e-9, 1e-9) [m]", file)
-        raw = _load_npy(file) if ending == ".npy" else read_matrix(file)
-        heights = raw * length_unit(unit, file)
+    if ending == ".npy":
+        size = needed(size, "pixel_size", _SIZES, file)
+        heights = _load_npy(file) * length_unit(unit, file)
+    elif ending in MATRICES:
+        heights, size = _text_map(file, size, unit, holes=holes)
     elif ending == ".xyz":
         if size is not None:
             raise given_twice("pixel_size", pixel_size, file)
         factor = length_unit(unit, file)
-        raw, own = read_points(file)
+        raw, own = read_points(file, holes=holes)
         heights, size = raw * factor, (own[0] * factor, own[1] * factor)
     elif ending == ".sdf" and is_surface_data_text(file):
         for field, given in (("unit", unit), ("pixel_size", pixel_size)):
@@ -336,12 +253,29 @@ def read_height_map(
         heights, size = read_surface_data(file)
     else:
         heights, size, source, is_periodic = read_instrument(file, size, unit, channel)
-    checked = _checked(heights, file)
+    checked = _checked(heights, file, holes=holes)
     if not all(math.isfinite(d) and 0.0 < d <= LARGEST for d in size):
         raise DescriptionError(
             "HeightMap.pixel_size", size, f"be positive and finite in {file.name}", unit="m"
         )
     return HeightMap(checked, size, source, found, is_periodic)
+
+
+def _text_map(
+    file: Path, size: Pair | None, unit: str | None, *, holes: bool
+) -> tuple[Array, Pair]:
+    """Heights [m] and pixel size [m] of a text of rows, with what its header does not state."""
+    header = read_header(file)
+    for name, given, states in (("unit", unit, header.unit), ("pixel_size", size, header.extent)):
+        if given is not None and states is not None:
+            raise given_twice(name, given, file)
+    if header.extent is None:
+        size = needed(size, "pixel_size", _SIZES, file)
+    raw = read_matrix(file, holes=holes)
+    if header.extent is not None:
+        size = (header.extent[0] / raw.shape[0], header.extent[1] / raw.shape[1])
+    assert size is not None
+    return raw * length_unit(header.unit or unit, file), size
 
 
 def _checked_size(given: float | Pair | None) -> Pair | None:
@@ -364,7 +298,7 @@ def _load_npy(file: Path) -> Array:
     return raw.astype(np.float64)
 
 
-def _checked(heights: Array, file: Path) -> Array:
+def _checked(heights: Array, file: Path, *, holes: bool) -> Array:
     if heights.ndim != 2 or min(heights.shape) < 2:
         raise DescriptionError(
             "HeightMap.heights",
@@ -373,19 +307,18 @@ def _checked(heights: Array, file: Path) -> Array:
             hint="a profile along a line is not a surface",
         )
     check_limit("PIXELS", heights.size, str(file))
-    holes = ~np.isfinite(np.ma.filled(heights, np.nan))
-    if holes.any():
-        i, j = (int(k) for k in np.argwhere(holes)[0])
+    given = np.ascontiguousarray(np.ma.filled(heights, np.nan), dtype=np.float64)
+    missing = ~np.isfinite(given)
+    if missing.all() or (missing.any() and not holes):
+        i, j = (int(k) for k in np.argwhere(missing)[0])
         raise DescriptionError(
             "HeightMap.heights",
-            f"{int(holes.sum())} that are not, the first at [{i}, {j}]",
+            f"{int(missing.sum())} that are not, the first at [{i}, {j}]",
             f"be finite in every pixel of {file.name}",
             unit="m",
-            hint="fill the holes in the instrument's software, or cut out a part without any; or "
-            "press the array with them masked (numpy.ma): they then carry no load",
+            hint="check the file" if missing.all() else HOLES,
         )
-    made = np.ascontiguousarray(np.ma.getdata(heights), dtype=np.float64)
-    largest = max(made.max(), -made.min())
+    largest = float(np.abs(given[~missing]).max())
     if largest > LARGEST:
         raise DescriptionError(
             "HeightMap.heights",
@@ -394,4 +327,4 @@ def _checked(heights: Array, file: Path) -> Array:
             unit="m",
             hint="no length is as large; check the unit",
         )
-    return made
+    return np.where(missing, np.nan, given) if missing.any() else given

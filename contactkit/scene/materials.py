@@ -51,6 +51,8 @@ class Material(Solid):
         Poisson's ratio [-], above -1 and at most 0.5 (incompressible).
     hardness : float, optional
         Indentation hardness [Pa]; only `HardnessLimit` asks for it.
+    source : str
+        Where the numbers come from, and their spread.
 
     Examples
     --------
@@ -65,6 +67,7 @@ class Material(Solid):
     young_modulus: float = field(validator=positive, metadata=si("Pa"))
     poisson_ratio: float = field(validator=_poisson, metadata=si("-"))
     hardness: float | None = field(default=None, validator=optional(positive), metadata=si("Pa"))
+    source: str = ""
 
     @property
     def plane_strain_modulus(self) -> float:

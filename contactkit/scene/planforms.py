@@ -519,7 +519,7 @@ class Image(Planform):
         return size if isinstance(size, tuple) else (size, size)
 
     @cached_property
-    def _distance(self) -> NDArray[np.floating[Any]]:
+    def _distance(self) -> Map:
         """Signed distance of each pixel to the rim [m], and of an empty one all around the image.
 
         A plan asks for it on each of its grids.
@@ -528,7 +528,7 @@ class Image(Planform):
 
         from ..lubrication.reynolds.face import distance_of_image
 
-        return distance_of_image(np.pad(self.coverage, 1), self.pixel)
+        return np.asarray(distance_of_image(np.pad(self.coverage, 1), self.pixel), dtype=float)
 
     def level(self, x: Any, y: Any) -> NDArray[np.float64]:
         """See `Planform.level`: between the pixels by straight lines; beyond them is nothing."""

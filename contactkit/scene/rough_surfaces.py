@@ -163,6 +163,9 @@ class Measured(Surface):
         SHA-256 of the file; a file that differs is refused.
     is_periodic : bool, optional
         Whether the map repeats beyond its edges. None: what the file states, if it does.
+    holes : {"refused", "masked", "fill"}
+        What pixels without a height are: a mistake, holes that carry no load, or solid of the
+        height of the nearest pixel, once the trend is off.
     """
 
     kind: ClassVar[str] = "measured"
@@ -178,6 +181,14 @@ class Measured(Surface):
     flipped: bool = False
     checksum: str | None = None
     is_periodic: bool | None = field(default=None, validator=optional(part(bool)))
+    holes: Literal["refused", "masked", "fill"] = field(
+        default="refused", validator=choice("refused", "masked", "fill")
+    )
+
+    @property
+    def void_pixels(self) -> Mask | None:
+        """See `Surface.void_pixels`; reads the file if it may have holes."""
+        return _FILES.of(self).holes if self.holes == "masked" else None
 
     @property
     def own_grids(self) -> frozenset[OwnGrid]:
@@ -200,17 +211,24 @@ class Measured(Surface):
 
 
 def _read(surface: Measured) -> Heights:
-    from ..roughness.height_maps import detrended, read_height_map
+    import numpy as np
+
+    from ..roughness.height_maps import detrended, filled, read_height_map
 
     found = read_height_map(
         surface.path,
         pixel_size=surface.pixel_size,
         unit=surface.unit,
         checksum=surface.checksum,
+        holes=surface.holes != "refused",
     )
-    heights = detrended(found.heights, surface.detrend)
+    heights: Any = detrended(found.heights, surface.detrend)
+    if surface.flipped:
+        heights = -heights
+    if surface.holes != "refused":
+        heights = filled(heights) if surface.holes == "fill" else np.ma.masked_invalid(heights)
     return Heights(
-        heights=-heights if surface.flipped else heights,
+        heights=heights,
         pixel_size=found.pixel_size,
         is_periodic=found.is_periodic if surface.is_periodic is None else surface.is_periodic,
     )
@@ -247,16 +265,6 @@ def _as_holes(value: Any) -> Mask | None:
     if value is None:
         return None
     made = np.array(value, dtype=bool, order="C")
-    made.flags.writeable = False
-    return made
-
-
-def _filled(heights: Map, holes: Mask) -> Map:
-    """Heights whose holes have the height of the nearest pixel beside them."""
-    from scipy.ndimage import distance_transform_edt
-
-    nearest = distance_transform_edt(holes, return_distances=False, return_indices=True)
-    made: Map = heights[tuple(nearest)]
     made.flags.writeable = False
     return made
 
@@ -309,8 +317,8 @@ class Heights(Surface):
         converter=_as_holes,
         repr=False,
         metadata={
-            "in_file": "fill the holes, save the array as .npy and use Measured(path=...); a map "
-            "with holes is kept in Python and in result files"
+            "in_file": "save the array as .npy, with nan in the holes, and use Measured(path=..., "
+            "holes='masked')"
         },
     )
 
@@ -335,8 +343,8 @@ class Heights(Surface):
                 f"be finite everywhere; at [y, x] = "
                 f"{list(first)} and {n - 1} more pixels they are not",
                 unit="m",
-                hint="fill the holes of the measurement, or mask them to carry no load: "
-                "heights=np.ma.masked_invalid(heights)",
+                hint="mask the holes of the measurement to carry no load, "
+                "heights=np.ma.masked_invalid(heights), or fill them before",
             )
 
     @holes.validator
@@ -357,7 +365,11 @@ class Heights(Surface):
             masked = np.ma.getmaskarray(self.heights)
             holes = _as_holes(masked if holes is None else masked | holes)
             if not masked.all():
-                object.__setattr__(self, "heights", _filled(np.ma.getdata(self.heights), masked))
+                from ..roughness.height_maps import filled
+
+                made = filled(np.ma.filled(self.heights, np.nan))
+                made.flags.writeable = False
+                object.__setattr__(self, "heights", made)
         if holes is not None and holes.all():
             raise DescriptionError(
                 "Heights.holes",

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
 
 from validation_tables import grid
 
 import contactkit as ck
-from contactkit import data
+from contactkit.files.structure import library_names
 from contactkit.kinds import SURFACES
 from contactkit.models.library import bundled_scene
+from contactkit.units import quantity_text
 
-DATA = Path(data.__path__[0])
 ONLY_IN_PYTHON = {"heights"}
 FACES = {"flat", "sphere"}  # described with the separation scenes
 
@@ -31,27 +30,15 @@ def _comments(path: Path) -> Iterable[tuple[str, str]]:
         yield code.strip().rstrip(","), comment.strip()
 
 
-def _sources_of_materials() -> Mapping[str, str]:
-    """Comments below the name of each material."""
-    found: dict[str, str] = {}
-    name = ""
-    for code, comment in _comments(DATA / "materials.toml"):
-        if code.startswith("["):
-            name = code.strip("[]")
-        elif name and comment:
-            found[name] = f"{found.get(name, '')} {comment}".strip()
-    return found
-
-
 def material_table() -> str:
-    """Materials of the library, with the sources in its comments."""
-    found, rows = _sources_of_materials(), []
-    for name in tomllib.loads((DATA / "materials.toml").read_text("utf-8")):
+    """Materials of the library, with their sources."""
+    rows = []
+    for name in library_names("materials.toml"):
         one = ck.load_material(name)
-        hardness = f"{one.hardness / 1e9:g}" if one.hardness else "-"
-        modulus = f"{one.young_modulus / 1e9:g}"
-        rows.append((f"`{name}`", modulus, f"{one.poisson_ratio:g}", hardness, found[name]))
-    return grid(("material", "E [GPa]", "nu", "H [GPa]", "where it comes from"), rows)
+        hardness = quantity_text(one.hardness, "Pa") if one.hardness else "-"
+        modulus = quantity_text(one.young_modulus, "Pa")
+        rows.append((f"`{name}`", modulus, f"{one.poisson_ratio:g}", hardness, one.source))
+    return grid(("material", "Young's modulus", "Poisson's ratio", "hardness", "source"), rows)
 
 
 def head_disk_table() -> str:

@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-import tomllib
 import warnings
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 from validation_tables import grid
 
 import contactkit as ck
+from contactkit.files.structure import library_names
 from contactkit.kinds import TEMPERATURE_LAWS
 from contactkit.units import celsius, cSt
 
 
 def liquid_table() -> str:
     """Viscosity of the liquids of the library over temperature, surface tension, density."""
-    text = (Path(ck.__path__[0]) / "data" / "liquids.toml").read_text("utf-8")
     at = (-20.0, 0.0, 20.0, 40.0, 80.0, 100.0)
     rows = []
-    for name in tomllib.loads(text):
+    for name in library_names("liquids.toml"):
         liquid = ck.load_liquid(name)
         cells = []
         for degrees in at:
@@ -33,8 +31,19 @@ def liquid_table() -> str:
         room = liquid.at(celsius(20.0))
         more = f"{room.surface_tension * 1e3:.4g}", f"{room.density:.5g}"  # type: ignore[operator]
         rows.append((f"`{name}`", *cells, *more))
-    head = [f"{degrees:g} degC" for degrees in at]
-    return grid(("liquid", *head, "tension [mN/m]", "density [kg/m3]"), rows)
+    head = [f"{degrees:g} °C" for degrees in at]
+    return grid(("liquid", *head, "surface tension [mN/m]", "density [kg/m³]"), rows)
+
+
+def liquid_source_table() -> str:
+    """Sources of the liquids of the library, with the spread of each number."""
+    rows = []
+    for name in library_names("liquids.toml"):
+        liquid = ck.load_liquid(name)
+        viscosity = liquid.viscosity or liquid.kinematic_viscosity
+        laws = (viscosity, liquid.density, liquid.surface_tension)
+        rows.append((f"`{name}`", f"{liquid.name}; {liquid.source}", *(one.source for one in laws)))  # type: ignore[union-attr]
+    return grid(("liquid", "what", "viscosity", "density", "surface tension"), rows)
 
 
 def law_table() -> str:

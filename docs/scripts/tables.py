@@ -20,7 +20,7 @@ from api_pages import api_table
 from contact_tables import head_disk_table, material_table, surface_kinds
 from device_tables import assumption_table
 from errata_table import errata_table
-from liquid_tables import law_table, liquid_table
+from liquid_tables import law_table, liquid_source_table, liquid_table
 from validation_tables import (
     divided_force_table,
     division_table,
@@ -255,6 +255,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "waveform": lambda: keys(Waveform),
     "mirror study": lambda: keys(MirrorStudy),
     "liquids": liquid_table,
+    "liquid sources": liquid_source_table,
     **{
         f"{name} {causality}s": partial(ports, model.ports, causality)
         for name, model in FMUS.items()

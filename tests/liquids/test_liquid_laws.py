@@ -264,7 +264,32 @@ def test_cold_start_is_eighty_times_thicker():
 
 
 def test_the_file_holds_the_promised_liquids():
-    assert set(liquids()) == {"engine-oil-15w-40", "iso-vg-46", "diesel", "water"}
+    fuels_and_oils = {"engine-oil-15w-40", "iso-vg-46", "diesel", "pfpe-linear", "pfpe-disk"}
+    silicones = {f"silicone-oil-{grade}" for grade in (10, 100, 1000)}
+    assert set(liquids()) == fuels_and_oils | silicones | {"water", "ethanol", "glycerol"}
+
+
+# Degrees and mPa.s of tables, within the errors that the file states.
+TABLES = {
+    "ethanol": ({-25: 3.262, 0: 1.786, 25: 1.074, 50: 0.694, 75: 0.476}, 0.007),
+    "glycerol": ({0: 12070.0, 20: 1410.0, 50: 142.0, 100: 14.8}, 0.045),
+}
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_viscosities_are_those_of_tables(name):
+    table, error = TABLES[name]
+    for degrees, viscosity in table.items():
+        found = liquids()[name].at(celsius(degrees)).viscosity * 1e3
+        assert found == pytest.approx(viscosity, rel=error)
+
+
+@pytest.mark.parametrize("grade", [10, 100, 1000])
+def test_silicone_oils_thin_as_their_maker_says(grade):
+    for degrees in (-20.0, 25.0, 100.0, 150.0):
+        state = liquids()[f"silicone-oil-{grade}"].at(celsius(degrees))
+        nu = grade * 1e-6 * 10.0 ** (763.1 / (273.0 + degrees) - 2.559)
+        assert state.viscosity / state.density == pytest.approx(nu, rel=0.019)
 
 
 def test_every_table_of_the_file_says_where_it_comes_from():
@@ -302,7 +327,7 @@ def test_diesel_lies_within_its_standard():
     assert 820.0 <= fuel.at(celsius(15.0)).density <= 845.0
 
 
-@pytest.mark.parametrize("name", ["engine-oil-15w-40", "iso-vg-46", "diesel", "water"])
+@pytest.mark.parametrize("name", tomllib.loads(DATA.read_text(encoding="utf-8")))
 def test_every_law_of_the_file_holds_up_to_both_ends_of_its_range(name):
     liquid = liquids()[name]
     properties = ("surface_tension", "viscosity", "kinematic_viscosity", "density")

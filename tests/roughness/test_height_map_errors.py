@@ -41,6 +41,9 @@ TEXTS = {
     "c.txt": "# a comment\n0 1  2\n\n3 4 5.5  # another\n",
     "d.dat": "0\t1\t2\n3\t4\t5.5",
     "E.TXT": "  0, 1, 2\n  3, 4, 5.5e0\n",
+    "commas.csv": "0;1,0;2\n3,00;4;5,5\n",
+    "commas.txt": "0\t1,0\t2\n3,00\t4\t5,5\n",
+    "commas.dat": "0,0 1,0 2,0\n3,00 4,0 5,5e0\n",
 }
 
 
@@ -51,6 +54,62 @@ def test_rows_of_numbers(write, name):
     assert found.pixel_size == (2e-9, 1e-9)
     assert found.source == name
     assert found.heights.flags.c_contiguous
+
+
+HEADERS = {
+    "gwyddion": "# Channel: Z\n# Width: 3.000 µm\n# Height: 4.000 µm\n# Value units: nm\n",
+    "wsxm": "WSxM file copyright\nWSxM ASCII Matrix file\nX Amplitude: 3 um\nY Amplitude: 4 um\n"
+    "Z Amplitude: 5.5 nm\nNumber of rows: 2\n\n",
+}
+
+
+@pytest.mark.parametrize("name", HEADERS)
+def test_a_header_states_size_and_unit(write, name):
+    path = write("a.txt", HEADERS[name] + "0\t1\t2\n3\t4\t5.5\n")
+    found = read_height_map(path)
+    np.testing.assert_allclose(found.heights, NUMBERS * 1e-9, rtol=1e-15)
+    assert found.pixel_size == pytest.approx((2e-6, 1e-6))
+    for given in ({"unit": "nm"}, {"pixel_size": 1e-6}):
+        with pytest.raises(DescriptionError, match=r"left out: a\.txt contains it"):
+            read_height_map(path, **given)
+
+
+def test_a_header_that_states_no_length_is_refused(write):
+    text = HEADERS["gwyddion"].replace("3.000 µm", "3 s")
+    with pytest.raises(DescriptionError, match=r"header of a\.txt"):
+        read_height_map(write("a.txt", text + "0 1\n2 3\n"))
+
+
+HOLEY = {
+    "a.csv": ("0,,2\n3,4,5.5\n", SIZE),
+    "b.csv": ("0;;2,0\n3;4;5,5\n", SIZE),
+    "c.tsv": ("0\t\t2\n3\t4\t5.5\n", SIZE),
+    "d.txt": ("0 nan 2\n3 4 5.5\n", SIZE),
+    "e.xyz": ("0 0 0\n2 0 2\n0 2 3\n1 2 4\n2 2 5.5\n", {"unit": "nm"}),
+    "f.npy": (np.where(NUMBERS == 1.0, np.nan, NUMBERS), SIZE),
+}
+
+
+@pytest.mark.parametrize("name", HOLEY)
+def test_holes_are_read_where_they_are_asked_for(write, name):
+    content, how = HOLEY[name]
+    path = write(name, content)
+    found = read_height_map(path, **how, holes=True)
+    expected = 1e-9 * np.where(NUMBERS == 1.0, np.nan, NUMBERS)
+    np.testing.assert_allclose(found.heights, expected, rtol=1e-15)
+    # Tabs are blanks where nothing may be missing.
+    with pytest.raises(DescriptionError, match="3 columns" if name == "c.tsv" else "holes="):
+        read_height_map(path, **how)
+
+
+def test_a_comma_at_the_end_of_each_line_is_no_column_of_holes(write):
+    with pytest.raises(DescriptionError, match="no line may end in a comma"):
+        read_height_map(write("a.csv", "1,2,\n4,5,\n"), **SIZE, holes=True)
+
+
+def test_a_map_of_nothing_but_holes_is_refused(write):
+    with pytest.raises(DescriptionError, match="finite in every pixel"):
+        read_height_map(write("a.npy", np.full((3, 3), np.nan)), **SIZE, holes=True)
 
 
 @pytest.mark.parametrize("kind", ["f4", "f8", "i2", "u1", ">f8"])
@@ -88,8 +147,8 @@ def test_the_file_that_is_meant_is_known_by_its_checksum(write):
 BAD_TEXTS = {
     "ragged": ("1 2 3\n4 5\n", r"have 3 columns in each line.*a\.txt, line 2\), got '2 columns'"),
     "words": ("x y\n1 2\n", r"numbers \(a\.txt, line 1, column 1\), got 'x'; put # before"),
-    "decimal comma": ("1,5;2,5\n3,5;4\n", r"got '1,5'; write points for decimal commas"),
-    "empty cell": ("1,,3\n4,5,6\n", r"line 1, column 2\), got ''; fill holes first"),
+    "no decimal comma": ("1,5;2,5\n3,x;4\n", r"line 2, column 1\), got '3.x'; put #"),
+    "empty cell": ("1,,3\n4,5,6\n", r"line 1, column 2\), got ''; say what the holes are: holes="),
     "last comma": ("1,2,\n4,5,\n", r"line 1, column 3\), got ''; .*no line may end in a comma"),
     "hole": (
         "1 2\nnan 4\n",

@@ -302,6 +302,58 @@ def test_press_leaves_the_tilt_and_reports_it():
     assert flat.message.endswith("rises by 0 m over the window")
 
 
+@pytest.mark.parametrize("trend", ["mean", "tilt", "curvature"])
+def test_a_trend_is_that_of_the_pixels_that_are_no_holes(trend):
+    """Against least squares over these pixels."""
+    rng = np.random.default_rng(2)
+    rough = 1e-10 * rng.standard_normal(X.shape) + 3e-10 * X - 1e-10 * Y * Y + 5e-9
+    holes = rng.random(X.shape) < 0.3
+    holes[:, :5] = True
+    terms = {"mean": [X**0], "tilt": [X**0, X, Y]}
+    terms["curvature"] = [*terms["tilt"], X * X, Y * Y, X * Y]
+    a = np.column_stack([term[~holes] for term in terms[trend]])
+    fit, *_ = np.linalg.lstsq(a, rough[~holes], rcond=None)
+    found = height_maps.detrended(np.where(holes, np.nan, rough), trend)
+    assert np.isnan(found[holes]).all()
+    np.testing.assert_allclose(found[~holes], rough[~holes] - a @ fit, atol=1e-14 * 5e-9 * 1e3)
+
+
+def test_a_trend_without_holes_is_the_same_as_with_none_of_them():
+    found = height_maps.detrended(HEIGHTS, "curvature")
+    known = np.ones(HEIGHTS.shape, dtype=bool)
+    same = height_maps._detrended_around_holes(HEIGHTS, known, "curvature")
+    np.testing.assert_allclose(same, found, atol=1e-13 * np.abs(HEIGHTS).max())
+
+
+@pytest.mark.parametrize("holes", ["masked", "fill"])
+def test_a_measured_map_with_holes_and_tilt_is_pressed_as_the_level_array(tmp_path, holes):
+    lost = np.zeros(X.shape, dtype=bool)
+    lost[3:6, 10:13] = True
+    np.save(tmp_path / "a.npy", np.where(lost, np.nan, HEIGHTS + 2e-8 * X))
+    path = str(tmp_path / "a.npy")
+    measured = ck.Measured(path=path, pixel_size=1e-8, unit="m", holes=holes)
+    found = ck.solve(ck.plan(scene(measured, periodic=False)))
+    level = height_maps.detrended(np.where(lost, np.nan, HEIGHTS + 2e-8 * X))
+    given = np.ma.masked_invalid(level) if holes == "masked" else height_maps.filled(level)
+    same = ck.press(given, 1e-8, STEEL, 50e6, periodic=False)
+    np.testing.assert_allclose(found.pressure, same.pressure, rtol=1e-6, atol=1.0)
+    assert (found.pressure[lost] == 0.0).all() or holes == "fill"
+    with pytest.raises(DescriptionError, match='holes="masked"'):
+        ck.plan(scene(evolve(measured, holes="refused"), periodic=False))
+
+
+def test_press_takes_off_a_tilt_beside_holes():
+    lost = X > 1.2
+    tilted = np.ma.array(HEIGHTS + 2e-8 * X, mask=lost)
+    found = ck.press(tilted, 1e-8, STEEL, 50e6, periodic=False, detrend="tilt")
+    level = np.ma.masked_invalid(height_maps.detrended(np.ma.filled(tilted, np.nan)))
+    same = ck.press(level, 1e-8, STEEL, 50e6, periodic=False)
+    np.testing.assert_array_equal(found.pressure, same.pressure)
+    assert found.message.endswith("heights less their tilt")
+    with pytest.raises(DescriptionError, match=r"press\(detrend\) must be one of 'none', 'mean'"):
+        ck.press(tilted, 1e-8, STEEL, 50e6, detrend="plane")
+
+
 def test_a_plane_is_all_tilt():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

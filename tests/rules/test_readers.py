@@ -39,7 +39,7 @@ OUTSIDE = {
     "np.memmap": (),
     "np.fromfile": (),
     "np.genfromtxt": (),
-    "np.loadtxt": ("contactkit/roughness/height_maps.py",),
+    "np.loadtxt": ("contactkit/roughness/text_maps.py",),
     "pickle.load": (),
     "pickle.loads": ("contactkit/studies/run.py",),  # from the process that started this one
     "zipfile.ZipFile": (
