@@ -49,7 +49,7 @@ _DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
 
 
 class Header(NamedTuple):
-    """What the header of a map states: `extent` (along y, along x) [m], `unit` of its heights."""
+    """Header of a map: `extent` (along y, along x) [m], `unit` of the heights."""
 
     extent: Pair | None = None
     unit: str | None = None
@@ -71,21 +71,21 @@ def read_header(file: Path) -> Header:
     DescriptionError
         If a size is no length.
     """
-    said: dict[str, str] = {}
+    entries: dict[str, str] = {}
     for line in _header_lines(file):
         key, _, value = line.lstrip("# ").partition(":")
-        said[" ".join(key.lower().split())] = value.strip()
-    along_y, along_x = (_first(said, names) for names in (_ALONG_Y, _ALONG_X))
+        entries[" ".join(key.lower().split())] = value.strip()
+    along_y, along_x = (_first(entries, names) for names in (_ALONG_Y, _ALONG_X))
     extent = None
     if along_y and along_x:
         field = f"header of {file.name}"
         extent = (parse_quantity(along_y, "m", field), parse_quantity(along_x, "m", field))
-    peak = _first(said, _HEIGHTS)
-    return Header(extent, _first(said, _UNITS) or (peak.split()[-1] if peak else None))
+    peak = _first(entries, _HEIGHTS)
+    return Header(extent, _first(entries, _UNITS) or (peak.split()[-1] if peak else None))
 
 
-def _first(said: dict[str, str], names: tuple[str, ...]) -> str | None:
-    return next((said[name] for name in names if said.get(name)), None)
+def _first(entries: dict[str, str], names: tuple[str, ...]) -> str | None:
+    return next((entries[name] for name in names if entries.get(name)), None)
 
 
 def _header_lines(file: Path) -> list[str]:
@@ -95,8 +95,8 @@ def _header_lines(file: Path) -> list[str]:
         for raw in islice(text, _LONGEST_HEADER):
             line = raw.strip()
             is_words = line[:1].isalpha() and not _is_number(line.split()[0].rstrip(",;"))
-            is_said = is_words and (":" in line or (lines or [line])[0].startswith("WSxM"))
-            if line and not line.startswith("#") and not is_said:
+            is_entry = is_words and (":" in line or (lines or [line])[0].startswith("WSxM"))
+            if line and not line.startswith("#") and not is_entry:
                 break
             lines.append(line)
     return lines

@@ -2,8 +2,8 @@
 
 Below a displacement beta by the film over its gap of 0.02 the bodies may stand for a spring in
 series with the film of rigid ones (`separation.deforming.maxwell`); above, the state of the FMU is
-the film on rings, with the matrix of displacements of its bodies in the tables. Scenes on maps have
-none: their film is a field of some 10 000 cells with contacts and cavities.
+the film on rings with its cavities, and the matrix of displacements is in the tables. Scenes on
+maps have none: their film is a field of some 10 000 cells with contacts and cavities.
 """
 
 from __future__ import annotations

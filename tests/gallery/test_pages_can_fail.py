@@ -137,6 +137,10 @@ BY_NAME = {  # constants of a page that enter it, read anew by `compute`
     "chapter_3.figure_3_21": ("VISCOSITY", "TIME", "HEIGHTS", "LARGE"),
     "chapter_3.section_3_2_3": ("VISCOSITY", "TIME", "RADIUS", "HEIGHTS", "START"),
     "chapter_3.tables_3_1_3_2": ("GAMMA", "VISCOSITY", "TIME", "RADIUS", "HEIGHTS"),
+    "measured.contact_challenge": ("MODULUS", "LOAD", "SLOPE", "WORK", "RANGE"),
+    "measured.full_contact": ("MODULUS", "GRADIENT", "HARDNESS"),
+    "measured.laser_bumps": ("MODULUS", "LOAD", "RADIUS", "GAMMA", "WET"),
+    "measured.bridge_rupture": ("VISCOSITY", "TENSION", "RADIUS", "VOLUME"),
 }
 ONLY_RATIOS = {  # inputs that are not changed above, and why
     "chapter_3.figure_3_08": "RADIUS: bound to the helpers of films.py when these are imported",
@@ -145,7 +149,11 @@ ONLY_RATIOS = {  # inputs that are not changed above, and why
     "chapter_3.figure_3_20": "TIME: its impulses do not depend on it, which is its statement",
     "chapter_3.figure_3_21": "GAP: its asperities are compared by powers of their number",
 }
-COSTS_SECONDS = {f"chapter_3.figure_3_{n}" for n in (11, 12, 14, 16)} | {"chapter_3.tables_3_1_3_2"}
+COSTS_SECONDS = {
+    *(f"chapter_3.figure_3_{n}" for n in (11, 12, 14, 16)),
+    "chapter_3.tables_3_1_3_2",
+    *(name for name in BY_NAME if name.startswith("measured.")),
+}
 
 
 @pytest.mark.parametrize(

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.gallery.measured.soft_spheres import (
+from contactkit.gallery.deforming.soft_spheres import (
     GAP,
     RADIUS,
     VISCOSITY,
     half_space,
     wet_sphere,
 )
-from contactkit.gallery.measured.unbounded_film import UnboundedFilm
+from contactkit.gallery.second_method.unbounded_film import UnboundedFilm
 
 WRONG = 1.3
 PAGES = ("vibrating_film", "sticking_sphere", "soft_approach", "wet_rebound")
@@ -81,7 +81,7 @@ def test_the_second_method_has_the_closed_limits():
 )
 @pytest.mark.filterwarnings("ignore")
 def test_a_page_on_films_notices_what_enters_it(name, wrong, monkeypatch):
-    page = importlib.import_module(f"contactkit.gallery.measured.{name}")
+    page = importlib.import_module(f"contactkit.gallery.deforming.{name}")
     assert all(one.holds for one in page.check(page.compute(True)))
     with monkeypatch.context() as patch:
         wrong(patch)

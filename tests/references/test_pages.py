@@ -20,6 +20,9 @@ SLOW = (
     "rupture_work",
     "cold_oil",
     "capillary_rough",
+    "full_contact",
+    "laser_bumps",
+    "bridge_rupture",
 )  # up to ten seconds each
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["pressed"]
+__all__ = ["iterated", "pressed"]
 
 Array = NDArray[Any]
 
@@ -25,6 +25,17 @@ def pressed(
     by less than `rtol` of the height of the surface at every pixel: 1e-5 gives the pressures of
     chapter 2 to 2e-4, 1e-6 to 1e-6 in twice the iterations.
     """
+    p, gap, _ = iterated(heights, compliance, mean, hardness, rtol)
+    return p, gap
+
+
+def iterated(
+    heights: Array, compliance: Array, mean: float, hardness: float = np.inf, rtol: float = 1e-5
+) -> tuple[Array, Array, int]:
+    """Pressure [Pa], gap [m] and number of iterations; see `pressed`.
+
+    Raises RuntimeError where 3000 iterations are not enough.
+    """
     start = np.full(heights.shape, mean)
     if np.isfinite(hardness):
         elastic, _ = pressed(heights, compliance, mean, np.inf, 1e2 * rtol)
@@ -34,19 +45,19 @@ def pressed(
 
 def _iterated(
     p: Array, heights: Array, compliance: Array, hardness: float, enough: float
-) -> tuple[Array, Array]:
+) -> tuple[Array, Array, int]:
     """Conjugate gradients among the pixels between the bounds, restarted when these change."""
     mean, size, sets = float(p.mean()), 1.0, np.zeros(p.shape, bool)
     step = mean / np.ptp(heights)
     t = np.zeros_like(p)
-    for _ in range(3000):
+    for n in range(3000):
         gap = np.fft.ifft2(compliance * np.fft.fft2(p)).real - heights
         free = (p > 0.0) & (p < hardness)
         gap -= gap[free].mean() if free.any() else gap[p > 0.0].max()
         out, full = p <= 0.0, p >= hardness
         wrong = np.where(out, np.maximum(-gap, 0.0), np.where(full, np.maximum(gap, 0.0), 0.0))
         if max(wrong.max(), np.abs(gap[free]).max(initial=0.0)) < enough:
-            return p, gap
+            return p, gap, n
         norm = float((gap[free] ** 2).sum())
         keep = norm / size if size > 0.0 and np.array_equal(free, sets) else 0.0
         t = np.where(free, gap + keep * t, 0.0)

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 import contactkit as ck
 from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
-from contactkit.gallery.measured.soft_spheres import (
+from contactkit.gallery.deforming.soft_spheres import (
     GAP,
     RADIUS,
     VISCOSITY,
@@ -19,7 +19,7 @@ from contactkit.gallery.measured.soft_spheres import (
     half_space,
     wet_sphere,
 )
-from contactkit.gallery.measured.unbounded_film import UnboundedFilm, bonded
+from contactkit.gallery.second_method.unbounded_film import UnboundedFilm, bonded
 from contactkit.plot import gallery as plot
 
 PAGE = Page(
@@ -46,7 +46,7 @@ FUNCTIONS = 32
 
 def _frequency(distance: float) -> float:
     """Parameter eta omega/E* (R/D)^1.5 at D/D_c."""
-    return (8.0 * distance) ** -1.5
+    return float((8.0 * distance) ** -1.5)
 
 
 def _ours(scene: Any, distances: Any) -> Any:

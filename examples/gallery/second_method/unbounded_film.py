@@ -213,7 +213,8 @@ class UnboundedFilm:
             if until(*now[self.n :]):
                 break
             length *= min(1.5, max(0.5, 0.8 * change / max(moved, 1e-12)))
-        return Motion(*np.array(rows).T, np.array(gaps))
+        t, z, speeds, thrusts = np.array(rows).T
+        return Motion(t, z, speeds, thrusts, np.array(gaps))
 
 
 class _Steps:
@@ -246,7 +247,7 @@ class _Steps:
 
     def take(self, start: Array, length: float) -> Array | None:
         """End of a step; None if a gap closes or Newton's method does not converge."""
-        now, rates = start.copy(), []
+        now, rates = start.copy(), list[Array]()
         for row, diagonal in zip(_STAGES, np.diag(_STAGES), strict=True):
             known = self.left @ start
             for weight, rate in zip(row, rates, strict=False):

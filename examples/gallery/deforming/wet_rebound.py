@@ -9,7 +9,7 @@ import numpy as np
 
 from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
-from contactkit.gallery.measured.soft_spheres import (
+from contactkit.gallery.deforming.soft_spheres import (
     GAP,
     RADIUS,
     SPEED,
@@ -20,7 +20,7 @@ from contactkit.gallery.measured.soft_spheres import (
     plan,
     wet_sphere,
 )
-from contactkit.gallery.measured.unbounded_film import UnboundedFilm
+from contactkit.gallery.second_method.unbounded_film import UnboundedFilm
 from contactkit.lubrication.elastohydrodynamic.drive import Driven
 from contactkit.lubrication.elastohydrodynamic.follow import Control, begun, follow
 from contactkit.lubrication.elastohydrodynamic.mesh import RingMesh, graded_nodes

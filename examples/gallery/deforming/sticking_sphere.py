@@ -9,7 +9,7 @@ import numpy as np
 
 from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
-from contactkit.gallery.measured.soft_spheres import (
+from contactkit.gallery.deforming.soft_spheres import (
     GAP,
     RADIUS,
     SPEED,
@@ -19,7 +19,7 @@ from contactkit.gallery.measured.soft_spheres import (
     simulate,
     wet_sphere,
 )
-from contactkit.gallery.measured.unbounded_film import UnboundedFilm
+from contactkit.gallery.second_method.unbounded_film import UnboundedFilm
 from contactkit.plot import gallery as plot
 
 PAGE = Page(

@@ -10,7 +10,7 @@ from attrs import evolve
 
 from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
-from contactkit.gallery.measured.soft_spheres import (
+from contactkit.gallery.deforming.soft_spheres import (
     GAP,
     RADIUS,
     SPEED,
@@ -22,7 +22,7 @@ from contactkit.gallery.measured.soft_spheres import (
     plan,
     wet_sphere,
 )
-from contactkit.gallery.measured.unbounded_film import UnboundedFilm, bonded
+from contactkit.gallery.second_method.unbounded_film import UnboundedFilm, bonded
 from contactkit.lubrication.elastohydrodynamic.drive import Imposed
 from contactkit.lubrication.elastohydrodynamic.motion import Phase, move
 from contactkit.plot import gallery as plot

@@ -39,7 +39,7 @@ def wet_sphere(solid: Any, rim: float, final: float = 3.0) -> Any:
 
 def modulus_of(beta: float) -> float:
     """Effective modulus [Pa] at which a pull at `SPEED` has a beta."""
-    return VISCOSITY * SPEED * RADIUS**1.5 / (beta * GAP**2.5)
+    return float(VISCOSITY * SPEED * RADIUS**1.5 / (beta * GAP**2.5))
 
 
 def plan(scene: Any) -> Any:
