@@ -41,7 +41,7 @@ PAGE = Page(
     "e-fold of eps at St = 100, and by 0.33 at St = 10: the gap at which a film of rigid bodies "
     "deforms them by itself goes as eps^(2/5).",
     choices="R = 5 mm, x0 = 1 um, 0.1 Pa.s, 10 um/s at x0, whole film; v_rebound is the largest "
-    "speed on the way back. The second method is Galerkin's in the whole plane, the rim of "
+    "speed of the rebound. The second method is Galerkin's in the whole plane, the rim of "
     "contactkit at 60 sqrt(R x0). Abstracts and definitions could be read, neither the curves of "
     "1986 nor the speeds measured in 2002: no measured number is compared.",
     grid="96 rings; 32 functions",

@@ -157,7 +157,7 @@ def cavitating(beta, strength, cavity, final=4e-6, **more):
     ("beta", "strength", "cavity"), [(0.1, 4e3, 1e3), (1.0, 1e3, 1e3), (1.0, 3e3, 800.0)]
 )
 def test_cavities_are_those_of_the_engine_on_the_same_mesh(beta, strength, cavity, force):
-    """Also where the film bears more than a cavity, until it ruptures at an instant."""
+    """Also where the tensile strength exceeds the tension of a cavity."""
     made = cavitating(beta, strength, cavity)
     host, times = force(made, film_rtol=COARSE, rtol=1e-6), np.linspace(0.0, 0.3, 41)
     table = engine(made, exactness_of(made, COARSE).rings, times)
@@ -192,7 +192,7 @@ def test_a_state_with_cavities_is_saved_and_restored(force):
 
 
 @pytest.mark.slow
-def test_a_mass_that_tears_a_film(shelf, open_fmu):
+def test_a_mass_that_ruptures_a_film(shelf, open_fmu):
     """Released sooner than from a film without cavities, when the scene is."""
     pull = damping(GAP) * SPEED
     made = cavitating(0.5, 1e3, 1e3, force=pull, mass=1e-2)
@@ -387,9 +387,9 @@ def test_the_film_that_is_taken_and_its_error():
     assert "film on 60 rings for beta = 0.1: the force is right to 0.0033 of" in soft.text
     assert exactness_of(scene(0.01), 5e-3).film == "rings"
     # A spring has no cavities.
-    torn = exactness_of(cavitating(0.01, 1e3, 1e3))
-    assert torn.film == "rings"
-    assert "beta = 0.01, with cavities: the force is right to 0.0048 of" in torn.text
+    ruptured = exactness_of(cavitating(0.01, 1e3, 1e3))
+    assert ruptured.film == "rings"
+    assert "beta = 0.01, with cavities: the force is right to 0.0048 of" in ruptured.text
     assert (
         "where it ruptures: the force is right to 0.035"
         in exactness_of(cavitating(1.0, 3e3, 800.0)).text
