@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from typing import Any, ClassVar, Literal
 
 from attrs import Attribute, evolve, field, frozen
@@ -74,11 +74,6 @@ _LEVELS["reference"] = _LEVELS["draft"] | {
     "film_rtol": 1e-4,
     "rtol": 1e-10,
 }
-_READ_BY = {
-    "SeparationScene": ("time_rtol", "points", "curve_rtol", "max_steps", "film_rtol"),
-    "SlidingScene": ("points", "curve_rtol"),
-    "ContactScene": ("grid", "rtol", "method", "max_iterations", "threads"),
-}
 # In place of a setting that is not given; the class fills in that of the level.
 _OF_LEVEL: Any = None
 
@@ -88,8 +83,9 @@ class Accuracy(Described):
     """Numerical settings of a plan, by a level.
 
     The first five are of separations, of which a sliding reads `points` and `curve_rtol`; the
-    others are of contacts. A setting that is given and that the scene does not read is refused when
-    it is planned; those of the level fit every scene.
+    others are of contacts. A loading and an effect state which they read (`Loading.reads`,
+    `Effect.reads`): a setting that is given and that nothing of the scene reads is refused when it
+    is planned; those of the level fit every scene.
 
     Parameters
     ----------
@@ -213,16 +209,8 @@ class Accuracy(Described):
         """Return the same, its settings of these names given though they have their usual value."""
         return evolve(self, origin=(self.level, self.given.union(names) - {"level"}))
 
-    def unread(self, scene: str, *, takes_grid: bool = False) -> str:
-        """Name of a setting that is given and that a kind of scene does not read; or empty.
-
-        Some separations take `grid`.
-        """
-        if "max_iterations" in self.given and self.method == "active-set":
-            return "max_iterations"
-        read = _READ_BY.get(scene, tuple(self.values))
-        if takes_grid:
-            read = (*read, "grid")
+    def unread(self, read: Container[str]) -> str:
+        """Name of a setting that is given and is not among those that are read; or empty."""
         return next((n for n in self.values if n in self.given and n not in read), "")
 
     def saved(self) -> dict[str, Any]:

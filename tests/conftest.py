@@ -10,6 +10,7 @@ import attrs
 import loadings
 import pytest
 from hypothesis import HealthCheck, settings
+from shelf import Shelf, compiled_once
 
 import contactkit as ck
 from contactkit.benchmarks import releases
@@ -39,6 +40,21 @@ def pytest_collection_finish():
     gc.collect()
     gc.freeze()
     gc.set_threshold(50_000, 20, 50)
+
+
+@pytest.fixture(scope="session")
+def shelf(tmp_path_factory):
+    """FMUs that are built once in a run, whoever asks for them."""
+    return Shelf(tmp_path_factory)
+
+
+@pytest.fixture(scope="session")
+def kernels_compiled_once(shelf):
+    """Have each kernel compiled once for all tests and workers that ask for this."""
+    pytest.importorskip("pythonfmu")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("contactkit.fmu.native.build.compile_kernel", compiled_once(shelf))
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -13,6 +13,11 @@ def imposed(**given):
     return kind(**given)
 
 
+def with_points(scene, n):
+    """Accuracy of a curve of some points, for a loading that has one: a motion takes its steps."""
+    return ck.Accuracy(points=n) if "points" in scene.reads else None
+
+
 def pressed(**given):
     """Loading of a contact: a pressure, a force or an approach."""
     return ck.Approach(**given) if "approach" in given else ck.Pressing(**given)

@@ -26,14 +26,27 @@ if TYPE_CHECKING:
 
 __all__ = ["AdhesiveBranch", "Jump", "PullOffCurve", "pull_off_curve"]
 
-_SUDDEN = 0.1  # energy lost over change of load times change of approach, at a jump; that change
-# over the adhesive energy, in a step that is too long
-_LEAST = 1e-3  # energy lost over the adhesive energy, at a jump
 _PASSING = "pixels across a contact spot"  # which begins and ends in a point on every branch
-_MOST_LEFT = 0.999
-_SAME = 1e-3  # change of load and energy between two paths to one state
-_LONGEST = 0.25  # step over the range of the law, where states are not ordered
-_CLOSED = 1e-6  # change of energy over the adhesive energy, of a loop that is closed
+# Measured on a ball with two ranges of the law, 24 x 24 pixels and seven approaches: 466 and 591
+# contacts, two jumps each, a small loop and a large one.
+#
+# Energy lost over change of load times change of approach, at a jump; that change over the adhesive
+# energy, in a step that is too long. 0.3 takes half the contacts and misses both jumps of the small
+# loop; 0.03 takes 1.2 to 1.4 times as many, for the same jumps.
+_SUDDEN = 0.1
+# Energy lost over the adhesive energy, at a jump: what the trapezoidal rule leaves is less. At 1e-2
+# the small loop is nearly three times too large, at 1e-4 and 1e-5 8 % smaller for 5 to 10 % more.
+_LEAST = 1e-3
+_MOST_LEFT = 0.999  # of the pull-off force at the last state: beyond, that may be the largest pull
+# Change of load and energy between two paths to one state, where states are not ordered: neighbours
+# on one branch differ by more, and what the tolerance of a contact leaves is far less.
+_SAME = 1e-3
+# Step over the range of the law, where states are not ordered: within a quarter of it the tension
+# changes by a fifth, and a path by the middle finds the same state unless there is a jump.
+_LONGEST = 0.25
+# Change of energy over the adhesive energy, of a loop that is closed: round-off of sums of
+# energies.
+_CLOSED = 1e-6
 _COLUMNS = (
     ("approach", "m"),
     ("load", "N"),

@@ -9,6 +9,7 @@ report_page  One page of HTML about a result: figures, numbers, validity, plan, 
 run          Running a scene of any kind: its plan and result in words, files of numbers, figures.
 study        Running the study of a scene file: a table, files with all columns, and a figure.
 fit          Fitting a scene to a measured curve of a CSV file: report, files, figures.
+live_page    Live page of a scene that the command line opened.
 scene_fmu    FMU that holds a scene, by its kind, and the start values to bake in.
 gallery      Every figure and table of the source, computed again and judged.
 fmu_files    FMU files as the command line orders them.

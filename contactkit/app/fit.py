@@ -27,7 +27,8 @@ class FitOptions(NamedTuple):
     """Options of a fit from the command line.
 
     `over` and `quantity` are ``NAME`` or ``NAME=COLUMN`` of the file, `parameters` are texts such
-    as ``PATH=lo..hi``, nuisances among them; `noise` is as of a `MeasuredCurve`.
+    as ``PATH=lo..hi``, nuisances among them; `noise` is as of a `MeasuredCurve`; `workers` are
+    processes.
     """
 
     data: Path
@@ -36,6 +37,7 @@ class FitOptions(NamedTuple):
     parameters: tuple[str, ...]
     noise: str | None = None
     branch: Any = None
+    workers: int = 1
 
 
 def fit_scene(
@@ -62,7 +64,7 @@ def fit_scene(
         branch=options.branch,
     )
     settings = accuracy if accuracy.given or accuracy != Accuracy.standard else None
-    found = fit(scene, curve, paths, settings, nuisance=nuisances)
+    found = fit(scene, curve, paths, settings, nuisance=nuisances, workers=options.workers)
     progress(1.0)
     numbers: Mapping[str, tuple[Any, str]] = {"status": (found.status, "-"), **found.scalars()}
     if out is None:

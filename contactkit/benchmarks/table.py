@@ -1,6 +1,9 @@
 """Table of studies of accuracy and of hard cases: what is solved, over what, against what.
 
-``contactkit cost NAME``, the pages of the documentation, the tests and the benchmarks read it.
+``contactkit cost NAME``, the pages of the documentation, the tests and the benchmarks read it. A
+study has a scene, settings that refine its solution, and a reference. What compares models of
+physics at one setting is none: errors of closures of bridges (`models.liquid_bridges`), statements
+of the source (``docs/scripts/measure_claims.py``).
 """
 
 from __future__ import annotations

@@ -50,6 +50,7 @@ __all__ = ["fit"]
     type=click.Choice(["rising", "falling"]),
     help="Part of a result whose axis turns back.",
 )
+@click.option("--workers", type=int, default=1, help="Processes to make runs in.")
 @options.folder
 @options.overwrite
 @options.as_json

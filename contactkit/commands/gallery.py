@@ -11,7 +11,7 @@ from . import options
 from .terminal import say
 
 if TYPE_CHECKING:
-    from ..app.gallery.run import Outcome
+    from ..app.gallery.run import PageOutcome
 
 __all__ = ["gallery"]
 
@@ -44,9 +44,9 @@ def gallery(
         for one in pages:
             say(f"{one.page.name:<12} {one.chapter:<10} {one.page.title}")
         return 0
-    ended: list[Outcome] = []
+    ended: list[PageOutcome] = []
 
-    def tell(outcome: Outcome) -> None:
+    def tell(outcome: PageOutcome) -> None:
         ended.append(outcome)
         say(f"[{len(ended)}/{len(pages)}] {outcome}")
 

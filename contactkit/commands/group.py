@@ -11,6 +11,7 @@ from .fmu import fmu
 from .gallery import gallery
 from .lists import list_names, new
 from .options import Group
+from .page import page
 from .plan import check, plan
 from .report import report
 from .run import run
@@ -40,7 +41,7 @@ def contactkit(context: click.Context, version: bool) -> int:
 
 
 for _command in (
-    *(list_names, new, check, plan, run, study, fit, cost, report),
+    *(list_names, new, check, plan, run, study, fit, cost, report, page),
     *(gallery, fmu, completion),
 ):
     contactkit.add_command(_command)

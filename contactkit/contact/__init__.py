@@ -14,6 +14,7 @@ companion      A coarser companion of a contact, on fewer pixels.
 discretisation Error of the grid, estimated from companions on wider pixels.
 functionals    Numbers of a contact that have a gradient, with their slopes.
 adjoint        Gradient of such a number: one more solve with the same operator.
+attracted      Linear response of a contact with an attraction, for its gradient.
 outer          Outer iteration: unknowns of the effects that agree with the contact.
 slip_path      Partial slip of dissimilar bodies: pressing in steps, then a tangential load path.
 plastic_history Steps of a loading history; the surface that a plastic contact leaves.

@@ -15,15 +15,20 @@ on their right, and every derivative is a product with it:
 with the constant :math:`\mu` of the adjoint displacement under a load; at an approach
 :math:`(\sum\lambda + J_\delta)\, d\delta` takes the place of the last term. (Adjoint equations of
 obstacle problems: Mignot 1976; the same with dh, dC, dH and dW known for a parameter.)
+
+An attraction adds its tangent on the pixels apart (`attracted`), and the change of its law
+at the gaps of the contact to dJ.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ..errors import NotSimulatedError
+from .attracted import attracted_response, fall_of_tension
 from .effects.base import (
     Attraction,
     DisplacementTerm,
@@ -37,9 +42,11 @@ from .effects.plasticity import AT_HARDNESS
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from .attracted import AttractedResponse
     from .functionals import Slopes
     from .plan import ContactPlan
     from .result import ContactResult
+    from .solver.contact_solver import Response
 
     Map = NDArray[np.float64]
 
@@ -55,13 +62,15 @@ class Change(NamedTuple):
     """Change of what a contact is made from, per unit of a parameter; None where it has none.
 
     `heights` (ny, nx) [m], the displacement by the present pressure `pressed` (ny, nx) [m] as the
-    compliance changes, `hardness` [Pa] a number or a map, `load` the mean pressure [Pa] and
+    compliance changes, `hardness` [Pa] a number or a map, `tension` (ny, nx) [Pa] that of
+    an attraction at the present gaps, `load` the mean pressure [Pa] and
     `approach` that from first touch [m].
     """
 
     heights: Map | None = None
     pressed: Map | None = None
     hardness: Map | float | None = None
+    tension: Map | None = None
     load: float = 0.0
     approach: float = 0.0
 
@@ -69,14 +78,16 @@ class Change(NamedTuple):
 class Adjoint(NamedTuple):
     """Slopes of a number over all that a contact is made from.
 
-    `heights` and `pressed` (ny, nx) [unit/m], `hardness` [unit/Pa] (ny, nx), `load` over the mean
-    pressure [unit/Pa], `approach` over that from first touch [unit/m]. `n_undecided` pixels carry
-    no pressure and have no gap either: the slopes are one-sided. `n_applications` of the operator.
+    `heights` and `pressed` (ny, nx) [unit/m], `hardness` and `tension` (ny, nx) [unit/Pa], `load`
+    over the mean pressure [unit/Pa], `approach` over that from first touch [unit/m]. `n_undecided`
+    pixels carry no pressure and have no gap either: the slopes are one-sided. `n_applications` of
+    the operator.
     """
 
     heights: Map
     pressed: Map
     hardness: Map
+    tension: Map
     load: float
     approach: float
     n_undecided: int
@@ -89,14 +100,17 @@ class Adjoint(NamedTuple):
             (self.heights, change.heights),
             (self.pressed, change.pressed),
             (self.hardness, change.hardness),
+            (self.tension, change.tension),
         ):
             if one is not None:
                 found += float((slope * one).sum())
         return found
 
 
-def check_differentiable(plan: ContactPlan) -> None:
+def check_differentiable(plan: ContactPlan, of: str) -> None:
     """Refuse a contact whose gradient is not that of its pressure alone.
+
+    Under loads that only rise, plastic pixels carry the hardness as they do without a history.
 
     Raises
     ------
@@ -104,15 +118,15 @@ def check_differentiable(plan: ContactPlan) -> None:
         Names the effect and the reason.
     """
     scene = plan.scene
-    reasons = {
-        LoadHistory: "the shape depends on all loads before",
-        DisplacementTerm: "friction displaces the surfaces, and the equations are not symmetric",
-        Attraction: "the tension follows the gap, and states end in jumps",
-    }
-    for role, reason in reasons.items():
-        effect = scene.effect(role)
-        if effect is not None:
-            raise _refused(type(effect).__name__, reason)
+    history, term = scene.effect(LoadHistory), scene.effect(DisplacementTerm)
+    if history is not None and not _only_rises(plan, history):
+        reason = "the shape depends on a load before that was as large or larger"
+        raise _refused(type(history).__name__, reason)
+    if history is not None and of == "energy":
+        raise _refused(type(history).__name__, "its energy is that of the shape that it left")
+    if term is not None:
+        reason = "friction displaces the surfaces, and the equations are not symmetric"
+        raise _refused(type(term).__name__, reason)
     slip, film = scene.effect(PartialSlip), scene.effect(LoadTerm)
     if slip is not None and slip.couples(scene):
         raise _refused("PartialSlip(coupled=True)", "the tractions depend on the path of the load")
@@ -121,6 +135,16 @@ def check_differentiable(plan: ContactPlan) -> None:
         raise _refused(f"{type(film).__name__}(self_consistent=True)", reason)
     if plan.hardness is not None and not isinstance(plan.hardness, FixedHardness):
         raise _refused("HardnessLimit", "its hardness depends on the displacement")
+
+
+def _only_rises(plan: ContactPlan, history: LoadHistory[Any]) -> bool:
+    """Whether each load of a history exceeds those before it."""
+    loadings = (*history.loadings(), plan.scene.loading)
+    loads = [0.0]
+    for one in loadings:
+        pressure = one.mean_pressure(plan.grid.area)
+        loads.append((one.imposed_approach if pressure is None else pressure) or 0.0)
+    return all(before < after for before, after in pairwise(loads))
 
 
 def _refused(what: str, reason: str) -> NotSimulatedError:
@@ -163,9 +187,21 @@ def adjoint(plan: ContactPlan, result: ContactResult, slopes: Slopes) -> Adjoint
     at_bound = _at_bound(plan, p)
     free = (p > 0.0) & ~at_bound
     is_loaded = plan.rigid_approach is None
-    found = solver.response(free, g, -slopes.approach if is_loaded else None)
+    total = -slopes.approach if is_loaded else None
+    of_hardness = of_tension = zero
+    by_approach = 0.0
+    attraction = plan.scene.effect(Attraction)
+    found: Response | AttractedResponse
+    if attraction is None:
+        found = solver.response(free, g, total)
+    else:
+        free = result.contact & ~at_bound
+        law = attraction.prepare(solver.self_influence)
+        apart = ~(result.contact | at_bound)
+        falls = np.where(apart, fall_of_tension(law, result.gap), 0.0)
+        found = attracted = attracted_response(solver, free, falls, g, total)
+        of_tension = np.where(apart, attracted.by_tension, 0.0)
     adjoint_pressure, n_applications = found.pressure, n_applications + found.n_applications
-    of_hardness, by_approach = zero, 0.0
     if at_bound.any():
         left = g - displaced(adjoint_pressure)
         of_hardness = np.where(at_bound, left + (found.shift if is_loaded else 0.0), 0.0)
@@ -179,6 +215,7 @@ def adjoint(plan: ContactPlan, result: ContactResult, slopes: Slopes) -> Adjoint
         heights,
         by_u - adjoint_pressure,
         of_hardness,
+        of_tension,
         by_load,
         by_approach,
         undecided,
@@ -196,6 +233,10 @@ def _at_bound(plan: ContactPlan, pressure: Map) -> NDArray[np.bool_]:
 def _n_undecided(result: ContactResult, at_bound: NDArray[np.bool_]) -> int:
     """Pixels that a change however small may bring into contact, or out of it."""
     p, gap = result.pressure, result.gap
+    attraction = result.plan.scene.effect(Attraction)
+    if attraction is not None:  # the pressure of contact, which may pull on the whole
+        tension = attraction.attracted_of(result.parts[type(attraction)]).tension
+        p = np.where(result.contact, p + tension, 0.0)
     if not p.any():
         return 0
     length = float(np.abs(result.displacement).max())

@@ -1,4 +1,4 @@
-"""Size of the film force of a contact whose film is reported only, were it to pull as well."""
+"""Estimate of the meniscus force of a film that is only reported, if it acted on the contact."""
 
 from __future__ import annotations
 

@@ -356,7 +356,7 @@ def _check_free_sheets(scene: ContactScene, grid: Grid) -> None:
 
 
 def _check_window(grid: Grid) -> None:
-    """Refuse a window whose powers do not fit into the numbers of a computer."""
+    """Refuse a window whose powers overflow double precision."""
     sides = [count * size for count, size in zip(grid.shape, grid.pixel_size, strict=True)]
     if not max(sides) <= _WIDEST:
         raise DescriptionError(
@@ -369,7 +369,7 @@ def _check_window(grid: Grid) -> None:
 
 
 def _check_size(made: ContactPlan) -> None:
-    """Refuse a load or an approach far beyond what the elastic bodies could answer."""
+    """Refuse a load or an approach far beyond linear elasticity."""
     loading, load = made.scene.loading, made.mean_pressure
     # Of the stiffest layer, as a soft one may be thin.
     modulus = min(

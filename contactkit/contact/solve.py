@@ -185,7 +185,7 @@ def _observed(plan: ContactPlan, solved: Solved, counter: WorkCounter) -> Solved
 
 
 def _check_fits(plan: ContactPlan, contact: SolvedContact, energy: float) -> None:
-    """Refuse a contact whose numbers left the range of a computer's on the way."""
+    """Refuse a contact with overflow or underflow during the solve."""
     load = plan.mean_pressure
     is_lost = load is not None and load > 0.0 and not contact.pressure.any()
     sums = float(contact.pressure.sum() + contact.gap.sum()) + energy

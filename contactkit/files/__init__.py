@@ -2,7 +2,6 @@
 
 scenes           Scene files in TOML: read completely, or refused with all errors.
 toml_lines       Lines of a TOML file on which its keys stand, for messages.
-face_tables      Faces that a scene file may give the viscous force.
 structure        Tables of plain values to scene objects.
 meniscus_amount  Amount of liquid that a file gives by a contact radius, or by a coverage, at a gap.
 unstructure      Scene objects to tables of plain values, and the names of their kinds in files.

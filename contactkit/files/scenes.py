@@ -24,7 +24,7 @@ from ..scene.loading import ContactLoading, Sliding
 from ..scene.scenes import ContactScene, Scene, SeparationScene, SlidingScene
 from .structure import (
     FileError,
-    Problem,
+    FileProblem,
     load_liquid,
     load_material,
     structure,
@@ -99,7 +99,7 @@ def read_tables(path: str | Path) -> dict[str, Any]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         comma = re.search(r"= *-?\d+,\d+ *(?=[,}#]|$)", _line_of(text, str(error)))
         cure = "; a decimal comma? write a point" if comma else ""
-        raise FileError(path.name, [Problem(f"not TOML: {str(error)[:200]}{cure}")]) from None
+        raise FileError(path.name, [FileProblem(f"not TOML: {str(error)[:200]}{cure}")]) from None
     except OSError as error:
         raise DescriptionError("file", str(path), "be readable", hint=str(error)) from None
     return resolved_references(tables, path)
@@ -116,7 +116,7 @@ def _parsed(text: str, name: str) -> dict[str, Any]:
     except tomllib.TOMLDecodeError:
         raise
     except ValueError as error:  # a number of thousands of digits
-        raise FileError(name, [Problem(f"not TOML: {str(error)[:200]}")]) from None
+        raise FileError(name, [FileProblem(f"not TOML: {str(error)[:200]}")]) from None
     check_plain(tables, name)
     check_texts(tables, name)
     return tables

@@ -38,7 +38,7 @@ from .unstructure import unstructure, with_arrays
 
 __all__ = [
     "FileError",
-    "Problem",
+    "FileProblem",
     "field_value",
     "library_names",
     "load_liquid",
@@ -425,13 +425,13 @@ def structure(tables: Mapping[str, Any], kind: type[_T], origin: str) -> _T:
         raise FileError(origin, _problems(error)) from None
 
 
-def _problems(error: cattrs.ClassValidationError) -> list[Problem]:
+def _problems(error: cattrs.ClassValidationError) -> list[FileProblem]:
     """Mistakes of a description, and the paths of what they belong to."""
     found = [one.partition(" @ $") for one in cattrs.transform_error(error, format_exception=_say)]
-    return [Problem(text, place.lstrip(".")) for text, _, place in found]
+    return [FileProblem(text, place.lstrip(".")) for text, _, place in found]
 
 
-class Problem(NamedTuple):
+class FileProblem(NamedTuple):
     """A mistake in a file, and the path of the table or key that it belongs to."""
 
     text: str
@@ -453,7 +453,7 @@ _MOST_LISTED = 50  # errors of a file, in lines of a screen; a hostile file may 
 class FileError(DescriptionError):
     """A file with errors, which the message lists."""
 
-    def __init__(self, origin: str, problems: Sequence[Problem], text: str = "") -> None:
+    def __init__(self, origin: str, problems: Sequence[FileProblem], text: str = "") -> None:
         super().__init__(origin, "", "be right")
         self.problems = tuple(problems)
         lines = lines_of_keys(text)

@@ -4,7 +4,9 @@ fit         `fit`: least squares of a scene or a device to measured curves and b
 data        Measured curves and bounds, with their noise and the nuisances of the instrument.
 parameters  Parameters: paths and nuisances, bounds, scaling, priors.
 outcomes    Columns and numbers of the run of any scene or device.
-model       Runs read at the positions of the instrument, through a spring.
+runs        Runs of a scene and their exact slopes, each made once, in worker processes if wanted.
+read_off    Columns at the positions of the instrument, through a spring.
+model       What the runs predict of all readings, and its exact derivatives.
 search      Residuals, derivatives and the search for the minimum.
 intervals   Intervals from the covariance or the profile likelihood.
 verdict     What the data decide, what they do not, what the model misses, in words.

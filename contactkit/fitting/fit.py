@@ -15,18 +15,28 @@ from scipy.stats import qmc
 
 from ..accuracy import Accuracy
 from ..errors import ContactkitError, ConvergenceError, DescriptionError, ValidityWarning
+from ..numerics.blas import one_thread
 from ..planning import plan, run
-from ..scene.scenes import ContactScene, Scene
+from ..scene.scenes import Scene
 from ..studies.paths import changed
 from ..studies.study import check_whole
 from ..validity import ValidityNumber, note_worst
 from .data import MeasuredBound, MeasuredCurve, by_curve
-from .fitted import FittedCurve, FittedParameter, FitWork, Searched
-from .intervals import BetterFitError, Interval, Linear, interval, level_factor, linearised
+from .fitted import FittedCurve, FittedParameter, FitWork, Searched, short_names
+from .intervals import (
+    BetterFitError,
+    Interval,
+    Linear,
+    interval,
+    level_factor,
+    linearised,
+    places_of_ends,
+)
 from .model import Model
 from .outcomes import Solve, outcome_of, solver_of
 from .parameters import scene_parameters
 from .result import Fit
+from .runs import Solver
 from .search import Found, Problem, minimum
 from .verdict import decided_by, goodness, undecided, verdict_of
 
@@ -63,6 +73,7 @@ def fit(
     solve: Solve | None = None,
     intervals: Intervals = "auto",
     starts: int = 1,
+    workers: int = 1,
 ) -> Fit:
     r"""Fit parameters of a scene to measured curves, and state what the data decide.
 
@@ -95,6 +106,9 @@ def fit(
         Where the intervals come from.
     starts : int
         Searches from so many starts, of a Latin hypercube but for the first; the best is kept.
+    workers : int
+        Number of processes, as in `study`: for readings that are runs of their own, several curves,
+        and differences. The result is the same to the last bit for any number.
 
     Returns
     -------
@@ -141,16 +155,20 @@ def fit(
     begun = time.perf_counter()
     settings = accuracy if accuracy is not None else _settings(scene)
     check_whole("starts", starts, 1)
+    check_whole("workers", workers, 1)
     if intervals not in ("auto", "profile", "linear"):
         raise DescriptionError("intervals", intervals, "be 'auto', 'profile' or 'linear'")
     solver = solver_of(scene, settings, solve)
     sought = scene_parameters(scene, settings, parameters)
-    model = Model(scene, settings, solver, sought, _data(data), nuisance or {})
+    has_slopes = solve is None and isinstance(scene, Scene)
+    model = Model(Solver(scene, settings, solver, has_slopes), sought, _data(data), nuisance or {})
     n_data, count = _checked(model, parameters), _Count()
     start = np.array([one.scaled(one.start) for one in model.parameters])
-    noise, best = _searched(model, start, n_data, starts, count)
-    problem, best, linear, ends, factor = _intervals(model, noise, best, n_data, intervals, count)
-    work = FitWork(model.n_runs, count.n, time.perf_counter() - begun)
+    with model.runs.workers(workers), one_thread():
+        noise, best = _searched(model, start, n_data, starts, count)
+        found = _intervals(model, noise, best, n_data, intervals, count)
+    problem, best, linear, ends, factor = found
+    work = FitWork(model.runs.n, count.n, time.perf_counter() - begun)
     return _result(problem, best, linear, ends, (factor, n_data, work))
 
 
@@ -177,7 +195,7 @@ class _Count:
 
 
 def _settings(scene: Any) -> Accuracy:
-    is_curve = isinstance(scene, Scene) and not isinstance(scene, ContactScene)
+    is_curve = isinstance(scene, Scene) and "curve_rtol" in scene.reads
     return _ACCURACY if is_curve else Accuracy.standard
 
 
@@ -268,6 +286,8 @@ def _intervals(
             names = ", ".join(one.name for one in model.parameters)
             raise DescriptionError("parameters", names, "change what was measured", hint=hint)
         factor = level_factor(problem, n_data)
+        if method != "profile":
+            problem.ahead(places_of_ends(problem, best, linear, factor))
         try:
             ends = tuple(
                 interval(problem, best, linear, i, factor, method)
@@ -334,8 +354,22 @@ def _result(
         (*sources, *_STATISTICS),
         work,
         best.has_converged,
+        _slopes_text(problem),
         Searched(problem, best, linear, factor),
     )
+
+
+def _slopes_text(problem: Problem) -> str:
+    """Which derivatives were exact, and which were differences of whole runs."""
+    names = short_names([one.name for one in problem.model.parameters])
+    pairs = list(zip(names, problem.exact, strict=True))
+    exact = ", ".join(name for name, is_exact in pairs if is_exact)
+    others = ", ".join(name for name, is_exact in pairs if not is_exact)
+    parts = (
+        f"exact for {exact}" if exact else "",
+        f"by differences for {others}" if others else "",
+    )
+    return ", ".join(filter(None, parts))
 
 
 def _curves(

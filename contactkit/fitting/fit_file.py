@@ -59,6 +59,7 @@ def save_fit(fit: Fit, path: str | Path) -> Path:
         "sources": list(fit.sources),
         "work": fit.work._asdict(),
         "has_converged": fit.has_converged,
+        "slopes": fit.slopes,
     }
     return save_npz(path, columns, header)
 
@@ -114,6 +115,7 @@ def _unpacked(header: dict[str, Any], columns: Arrays, name: str) -> Fit:
         tuple(map(_text, header["sources"])),
         FitWork(**{key: _number(value) for key, value in header["work"].items()}),
         bool(header["has_converged"]),
+        _text(header.get("slopes", "")),
     )
 
 

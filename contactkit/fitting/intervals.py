@@ -23,7 +23,9 @@ __all__ = [
     "Interval",
     "Linear",
     "interval",
+    "level_factor",
     "linearised",
+    "places_of_ends",
     "profiled",
 ]
 
@@ -172,6 +174,17 @@ def interval(
         return Interval(ends[0], ends[1], False)
     low, high = (_end(problem, best, linear, i, side * factor) for side in (-1.0, 1.0))
     return Interval(low, high, True)
+
+
+def places_of_ends(problem: Problem, best: Found, linear: Linear, factor: float) -> list[Floats]:
+    """Ends of all intervals as linearised, where chi^2 will be compared with its parabola."""
+    halves = factor * linear.deviation
+    return [
+        best.place + sign * half * move
+        for half, move in zip(halves, linear.moves, strict=True)
+        if math.isfinite(half)
+        for sign in (-1.0, 1.0)
+    ]
 
 
 def _is_linear(problem: Problem, best: Found, linear: Linear, i: int, factor: float) -> bool:

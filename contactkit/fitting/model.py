@@ -3,34 +3,26 @@
 from __future__ import annotations
 
 import math
-import warnings
-from collections import OrderedDict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
-from ..accuracy import Accuracy
-from ..errors import ContactkitError, DescriptionError, ValidityWarning
-from ..studies.paths import axes, changed, check_apart, paths_of, read_value
+from ..errors import ContactkitError, DescriptionError
+from ..studies.paths import axes, check_apart, paths_of, read_value
 from ..units import parse_unit
 from .data import NUISANCES, MeasuredBound, MeasuredCurve
-from .outcomes import Outcome, Solve, branch_of, outcome_of, stated_error
+from .outcomes import Outcome, stated_error
 from .parameters import Parameter, by_path, nuisance_parameter
+from .read_off import ReadOff, read_off
+from .runs import Asked, Run, Runs, Solver
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
 
-__all__ = ["Model", "Prediction"]
-
-# Outcomes that are kept: those of a Jacobian by differences share their base and the runs of which
-# only a nuisance differs.
-_KEPT = 512
-# Part of the range of a run beyond its ends that counts as its end: round-off of units.
-_ROUND_OFF = 1e-9
+__all__ = ["Model", "Prediction", "Slopes"]
 
 
 class Prediction(NamedTuple):
@@ -39,6 +31,18 @@ class Prediction(NamedTuple):
     readings: tuple[Floats, ...]
     numbers: tuple[float, ...]
     errors: tuple[float, ...]
+
+
+class Slopes(NamedTuple):
+    """Derivatives of a prediction to one parameter: of the readings, and of the bounds (n,)."""
+
+    readings: tuple[Floats, ...]
+    numbers: Floats
+
+    @property
+    def is_known(self) -> bool:
+        """Whether all of them are known."""
+        return all(np.isfinite(part).all() for part in (*self.readings, self.numbers))
 
 
 class _Place(NamedTuple):
@@ -50,16 +54,21 @@ class _Place(NamedTuple):
     def value(self, name: str, values: Sequence[float]) -> float:
         return values[self.sought[name]] if name in self.sought else self.fixed[name]
 
+    def with_gauge(self, rows: Floats, ideal: Floats) -> Floats:
+        """Slopes with those to zero and scale, of the readings of an ideal instrument."""
+        for name, slope in (("zero", 1.0), ("scale", ideal)):
+            if name in self.sought:
+                rows[self.sought[name]] = slope
+        return rows
+
 
 class Model:
     """A scene with parameters, compared with curves and bounds.
 
     Parameters
     ----------
-    scene, accuracy
-        The scene or device, and the settings of its runs.
-    solve : callable
-        Runs a scene.
+    solver : Solver
+        The scene or device, the settings of its runs, and how it is run.
     sought : tuple of Parameter
         Fields of the scene that are sought; nuisances are added to them.
     data : (curves, bounds)
@@ -77,23 +86,23 @@ class Model:
 
     def __init__(
         self,
-        scene: Any,
-        accuracy: Accuracy,
-        solve: Solve,
+        solver: Solver,
         sought: tuple[Parameter, ...],
         data: tuple[tuple[MeasuredCurve, ...], tuple[MeasuredBound, ...]],
         common: Mapping[str, Any],
     ) -> None:
-        self.scene, self.accuracy, self._solve = scene, accuracy, solve
+        scene = solver.scene
+        self.scene, self.accuracy, self.runs = scene, solver.accuracy, Runs(solver)
         self.parameters, (self.curves, self.bounds) = sought, data
         curves, bounds = data
-        self.n_runs = 0
-        self._outcomes: OrderedDict[tuple[Any, ...], Outcome] = OrderedDict()
         self._known = set(paths_of(scene))
         self._data: list[MeasuredCurve | MeasuredBound] = [*curves, *bounds]
         self._sets = [self._read_sets(one) for one in self._data]
         self._paths = [self._path(curve) for curve in curves]
         self._names = self._grouped()
+        self.runs.n_together = sum(
+            curve.x.size if path else 1 for curve, path in zip(curves, self._paths, strict=True)
+        ) + len(bounds)
         self.units = self._units()
         self.deviations = [
             curve.deviation(unit) for curve, (_, unit) in zip(curves, self.units, strict=False)
@@ -180,6 +189,7 @@ class Model:
         ContactkitError
             If a run is refused or has no solution, or ends before the data do.
         """
+        self.ahead([values])
         base, readings, errors = self.changes(values), [], []
         for i, curve in enumerate(self.curves):
             found, error = self._curve(i, curve, base, values)
@@ -187,79 +197,162 @@ class Model:
             errors.append(error)
         numbers = []
         for j, bound in enumerate(self.bounds, len(self.curves)):
-            numbers.append(self._number(base | self._sets[j], self._names[j], bound.quantity))
+            run = Run(base | self._sets[j], self._names[j])
+            numbers.append(self._number(run, bound.quantity))
         return Prediction(tuple(readings), tuple(numbers), tuple(errors))
+
+    def ahead(self, each: Iterable[Sequence[float]]) -> None:
+        """Have the runs of some values of the parameters made together, by the worker processes.
+
+        Slopes of contacts are asked for at once, as the contact is solved where they are found.
+        """
+        jobs = list[tuple[Run, Asked | None]]()
+        for values in each:
+            for run, asked in self._runs_of_numbers(values):
+                jobs.append((run, asked if self.runs.solver.is_adjoint else None))
+            base = self.changes(values)
+            for i, path in enumerate(self._paths):
+                if not path:
+                    jobs.append((Run({**base, **self._sets[i]}, self._names[i]), None))
+        self.runs.ahead(jobs)
+
+    def _runs_of_numbers(self, values: Sequence[float]) -> Iterator[tuple[Run, Asked]]:
+        """Runs of which numbers are read, of each position of curves over a path and each bound."""
+        base = self.changes(values)
+        for i, (curve, path) in enumerate(zip(self.curves, self._paths, strict=True)):
+            if path:
+                yield from self._runs_along(i, curve, base, values)
+        for j, bound in enumerate(self.bounds, len(self.curves)):
+            run = Run(base | self._sets[j], self._names[j])
+            yield run, Asked(bound.quantity, self._fields)
+
+    def _runs_along(
+        self, i: int, curve: MeasuredCurve, base: Mapping[str, Any], values: Sequence[float]
+    ) -> Iterator[tuple[Run, Asked]]:
+        place, path = self._places[i], self._paths[i]
+        paths = (*self._fields, path) if "shift" in place.sought else self._fields
+        for at in (curve.x + place.value("shift", values)).tolist():
+            run = Run({**base, **self._sets[i], path: at}, self._names[i])
+            yield run, Asked(curve.quantity, paths)
+
+    @property
+    def _fields(self) -> tuple[str, ...]:
+        """Paths of the parameters that are fields of the scene; those of one value together."""
+        return tuple(", ".join(one.paths) for one in self.parameters if one.paths)
 
     def _curve(
         self, i: int, curve: MeasuredCurve, base: Mapping[str, Any], values: Sequence[float]
     ) -> tuple[Floats, float]:
-        place, changes = self._places[i], {**base, **self._sets[i]}
-        x = curve.x + place.value("shift", values)
+        place = self._places[i]
         if self._paths[i]:
-            ideal = np.array(
-                [
-                    self._number(changes | {self._paths[i]: at}, self._names[i], curve.quantity)
-                    for at in x.tolist()
-                ]
-            )
+            runs = [run for run, _ in self._runs_along(i, curve, base, values)]
+            ideal = np.array([self._number(run, curve.quantity) for run in runs])
             error = stated_error(self.scene, self.accuracy, ideal, False)
         else:
-            outcome = self._outcome(changes, self._names[i])
-            axis, column = _columns(outcome, curve)
-            stiffness = place.value("stiffness", values)
-            ideal = _read_off(axis, column, x, stiffness, curve)
-            error = stated_error(self.scene, self.accuracy, column, True)
+            outcome, found = self._read(i, curve, base, values)
+            ideal = found.values
+            error = stated_error(self.scene, self.accuracy, outcome.found[curve.quantity], True)
         scale = place.value("scale", values)
         return scale * ideal + place.value("zero", values), scale * error
 
-    def slope(
-        self, i: int, values: Sequence[float], predicted: Prediction
-    ) -> tuple[Floats, ...] | None:
-        """Exact derivative of the readings `predicted` to a parameter; None where it is not known.
+    def _read(
+        self, i: int, curve: MeasuredCurve, base: Mapping[str, Any], values: Sequence[float]
+    ) -> tuple[Outcome, ReadOff]:
+        """Run of a curve over a column, and the column at the positions."""
+        outcome = self.runs.outcome(Run({**base, **self._sets[i]}, self._names[i]))
+        x = curve.x + self._places[i].value("shift", values)
+        stiffness = self._places[i].value("stiffness", values)
+        return outcome, read_off(outcome, curve, x, stiffness)
 
-        Known to zero and scale of a curve. A result that offers derivatives of its numbers to the
-        fields of its scene is asked here, before differences are taken.
+    def slopes(self, values: Sequence[float], predicted: Prediction) -> list[Slopes | None]:
+        """Exact derivatives of what is `predicted` to each parameter; None where one is not known.
+
+        Those to nuisances follow from the curves, those to fields of the scene from its runs.
         """
-        name = self.parameters[i].name.rpartition(".")[2]
-        if self.parameters[i].paths or name not in ("zero", "scale"):
-            return None
-        found = []
-        for place, readings in zip(self._places, predicted.readings, strict=True):
-            if place.sought.get(name) != i:
-                found.append(np.zeros_like(readings))
-            elif name == "zero":
-                found.append(np.ones_like(readings))
-            else:
-                zero, scale = place.value("zero", values), place.value("scale", values)
-                found.append((readings - zero) / scale)
-        return tuple(found)
+        base = self.changes(values)
+        if not self.runs.solver.is_adjoint:
+            jobs = self._runs_of_numbers(values)
+            self.runs.ahead(pair for pair in jobs if self.runs.solver.may_have(pair[1]))
+        rows = [
+            self._of_numbers(i, curve, base, values, predicted.readings[i])
+            if self._paths[i]
+            else self._of_column(i, curve, base, values)
+            for i, curve in enumerate(self.curves)
+        ]
+        bounds = np.zeros((len(self.bounds), len(self.parameters)))
+        for j, bound in enumerate(self.bounds, len(self.curves)):
+            run = Run(base | self._sets[j], self._names[j])
+            found = self.runs.slopes(run, Asked(bound.quantity, self._fields))
+            bounds[j - len(self.curves)] = self._of_fields([found])[:, 0]
+        all_of = [
+            Slopes(tuple(part[k] for part in rows), bounds[:, k])
+            for k in range(len(self.parameters))
+        ]
+        return [one if one.is_known else None for one in all_of]
 
-    def _number(self, changes: Mapping[str, Any], names: tuple[str, ...], name: str) -> float:
-        value = self._outcome(changes, names).found[name]
+    def _of_fields(self, found: Sequence[Mapping[str, Floats]]) -> Floats:
+        """Slopes over the parameters that are fields, a row for each; nan where not known."""
+        unknown = [np.full(next(iter(one.values())).size if one else 1, np.nan) for one in found]
+        rows = np.zeros((len(self.parameters), sum(part.size for part in unknown)))
+        for k, parameter in enumerate(self.parameters):
+            if parameter.paths:
+                path = ", ".join(parameter.paths)
+                known = [one.get(path, nan) for one, nan in zip(found, unknown, strict=True)]
+                rows[k] = np.concatenate(known)
+        return rows
+
+    def _of_numbers(
+        self,
+        i: int,
+        curve: MeasuredCurve,
+        base: Mapping[str, Any],
+        values: Sequence[float],
+        readings: Floats,
+    ) -> Floats:
+        """Slopes of the readings of a curve over a path, a row for each parameter."""
+        place = self._places[i]
+        scale, zero = place.value("scale", values), place.value("zero", values)
+        found = [
+            self.runs.slopes(run, asked) for run, asked in self._runs_along(i, curve, base, values)
+        ]
+        rows = scale * self._of_fields(found)
+        if "shift" in place.sought:
+            along = [one.get(self._paths[i], np.full(1, np.nan)) for one in found]
+            rows[place.sought["shift"]] = scale * np.concatenate(along)
+        return place.with_gauge(rows, (readings - zero) / scale)
+
+    def _of_column(
+        self, i: int, curve: MeasuredCurve, base: Mapping[str, Any], values: Sequence[float]
+    ) -> Floats:
+        """Slopes of the readings of a curve over a column, a row for each parameter.
+
+        With the compliance c of the spring a column f is q = f(a) at a + c q = x, so that
+        dq = (1 - c q') df and dq/dc = -q q'.
+        """
+        place, (_, found) = self._places[i], self._read(i, curve, base, values)
+        scale, softness = place.value("scale", values), 1.0 / place.value("stiffness", values)
+        at = curve.x + place.value("shift", values) - softness * found.values
+        rows = np.zeros((len(self.parameters), at.size))
+        if self._fields:
+            run = Run({**base, **self._sets[i]}, self._names[i])
+            asked = Asked(curve.quantity, self._fields, curve.over, tuple(at.tolist()))
+            slopes = {} if found.is_held.any() else self.runs.slopes(run, asked)
+            rows = rows + scale * self._of_fields([slopes]) * (1.0 - softness * found.slopes)
+        if "shift" in place.sought:
+            rows[place.sought["shift"]] = scale * found.slopes
+        if "stiffness" in place.sought:
+            rows[place.sought["stiffness"]] = scale * softness**2 * found.values * found.slopes
+        return place.with_gauge(rows, found.values)
+
+    def _number(self, run: Run, name: str) -> float:
+        value = self.runs.outcome(run).found[name]
         if not isinstance(value, float):
             hint = "a column is compared over a column, such as over='gap'"
             raise DescriptionError("quantity", name, "be a number of the result", hint=hint)
         if math.isnan(value):
-            at = ", ".join(f"{path} = {one!r:.40}" for path, one in changes.items())
+            at = ", ".join(f"{path} = {one!r:.40}" for path, one in run.changes.items())
             raise ContactkitError(f"the result has no {name} at {at}: the event did not occur")
         return value
-
-    def _outcome(self, changes: Mapping[str, Any], names: tuple[str, ...]) -> Outcome:
-        """Outcome of a run; those of before are kept."""
-        key = (names, repr(sorted(changes.items())))
-        if key not in self._outcomes:
-            self.n_runs += 1
-            self._outcomes[key] = self._run(changes, names)
-            if len(self._outcomes) > _KEPT:
-                self._outcomes.popitem(last=False)
-        self._outcomes.move_to_end(key)
-        return self._outcomes[key]
-
-    def _run(self, changes: Mapping[str, Any], names: tuple[str, ...]) -> Outcome:
-        scene = changed(self.scene, self.accuracy, changes).scene
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ValidityWarning)  # the fit states the numbers itself
-            return outcome_of(self._solve(scene), names)
 
     def limits(self) -> list[tuple[float, float, float]]:
         """Least, most and noise of each bound in the unit of its number."""
@@ -273,7 +366,7 @@ class Model:
             changes = {**base, **self._sets[i]}
             if isinstance(one, MeasuredCurve) and self._paths[i]:
                 changes[self._paths[i]] = float(one.x[0])
-            found.append(self._outcome(changes, self._names[i]))
+            found.append(self.runs.outcome(Run(changes, self._names[i])))
         return found
 
 
@@ -316,82 +409,3 @@ def _check_unit(field: str, given: str, unit: str) -> None:
     """Refuse a unit of another dimension; a curve without one is in SI units."""
     if given and parse_unit(given).dimension != parse_unit(unit).dimension:
         raise DescriptionError(field, given, f"convert to {unit}, the unit of the result")
-
-
-def _columns(outcome: Outcome, curve: MeasuredCurve) -> tuple[Floats, Floats]:
-    axis, column = outcome.found[curve.over], outcome.found[curve.quantity]
-    if isinstance(axis, float) or isinstance(column, float) or axis.shape != column.shape:
-        one = curve.over if isinstance(axis, float) else curve.quantity
-        hint = "numbers of a result are compared over a field of the scene, by its path"
-        raise DescriptionError("curve", one, "be a column of the result", hint=hint)
-    part = branch_of(axis, curve.branch, curve.over)
-    return axis[part], column[part]
-
-
-def _read_off(
-    axis: Floats, column: Floats, x: Floats, stiffness: float, curve: MeasuredCurve
-) -> Floats:
-    """Column at the positions of the drive, which a spring connects with the body."""
-    at = axis + column / stiffness
-    rises = axis[-1] >= axis[0]
-    at = at if rises else -at
-    wanted = x if rises else -x
-    # States behind the furthest so far are not stable: the spring jumps over them.
-    reached = np.maximum.accumulate(at)
-    stays = np.concatenate([[True], at[1:] > reached[:-1]])
-    before = np.concatenate([stays[1:] & ~stays[:-1], [False]]) & ~stays  # last one before a jump
-    at, column = _jumped(at, column, stays, before)
-    low, high = float(at[0]), float(at[-1])
-    margin = _ROUND_OFF * max(high - low, abs(high), abs(low))
-    outside = (wanted < low - margin) | (wanted > high + margin)
-    if outside.any() and curve.beyond == "refuse":
-        sign = 1.0 if rises else -1.0
-        data = f"{x.min():.6g} to {x.max():.6g}"
-        ends = sorted((sign * low, sign * high))
-        raise DescriptionError(
-            f"MeasuredCurve({curve.name}).at",
-            data,
-            f"lie within the run, whose {curve.over} goes from {ends[0]:.6g} to {ends[1]:.6g}",
-            hint="let the loading go further on both sides, by the range of shift as well; or "
-            "beyond='hold'",
-        )
-    return _interpolated(at, column, np.clip(wanted, low, high))
-
-
-def _jumped(
-    at: Floats, column: Floats, stays: NDArray[np.bool_], before: NDArray[np.bool_]
-) -> tuple[Floats, Floats]:
-    """Stable states, with a second point at the position of each jump."""
-    if stays.all():
-        return at, column
-    landed = np.flatnonzero(stays[1:] & ~stays[:-1]) + 1
-    left = [int(np.flatnonzero(stays[:i])[-1]) for i in landed]
-    values = column.copy()
-    position = at.copy()
-    for i, j in zip(landed, left, strict=True):
-        # The state where the branch beyond reaches the position of the jump.
-        part = (at[j] - at[i - 1]) / (at[i] - at[i - 1])
-        values[i - 1] = column[i - 1] + part * (column[i] - column[i - 1])
-        position[i - 1] = at[j]
-    kept = stays | before
-    return position[kept], values[kept]
-
-
-def _interpolated(at: Floats, column: Floats, wanted: Floats) -> Floats:
-    """Monotone cubic through the points of each piece between jumps; no overshoot at a kink."""
-    breaks = np.flatnonzero(np.diff(at) <= 0.0) + 1
-    found = np.empty_like(wanted)
-    starts, ends = [0, *breaks], [*breaks, at.size]
-    piece = (
-        np.searchsorted(at[breaks], wanted, side="right")
-        if len(breaks)
-        else np.zeros(wanted.size, dtype=int)
-    )
-    for k, (first, end) in enumerate(zip(starts, ends, strict=True)):
-        mine = piece == k
-        if not mine.any():
-            continue
-        xs, ys = at[first:end], column[first:end]
-        inside = np.clip(wanted[mine], xs[0], xs[-1])
-        found[mine] = ys[0] if xs.size == 1 else PchipInterpolator(xs, ys)(inside)
-    return found

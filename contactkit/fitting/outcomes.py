@@ -7,7 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from attrs import has
+from attrs import frozen, has
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, nearest
@@ -43,6 +43,21 @@ class Outcome(NamedTuple):
     sources: tuple[str, ...]
 
 
+@frozen
+class _PlanAndRun:
+    """Runs the plan of a scene."""
+
+    accuracy: Accuracy
+
+    def __call__(self, scene: Any) -> Any:
+        return run(plan(scene, self.accuracy))
+
+
+def _reported(scene: Any) -> Any:
+    """Numbers of the report of a device."""
+    return scene.report.run(scene, None, lambda done: None).scalars
+
+
 def solver_of(scene: Any, accuracy: Accuracy, solve: Solve | None) -> Solve:
     """Return the function that runs a scene: the given one, its plan, or the report of a device."""
     if not has(type(scene)):
@@ -50,9 +65,9 @@ def solver_of(scene: Any, accuracy: Accuracy, solve: Solve | None) -> Solve:
     if solve is not None:
         return solve
     if isinstance(scene, Scene):
-        return lambda one: run(plan(one, accuracy))
+        return _PlanAndRun(accuracy)
     if hasattr(scene, "report"):
-        return lambda one: one.report.run(one, None, lambda done: None).scalars
+        return _reported
     expected = "be a scene or a device; for anything else give solve=, a function of it"
     raise DescriptionError("scene", scene, expected)
 

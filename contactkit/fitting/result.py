@@ -60,6 +60,8 @@ class Fit(Answer):
         Sources of the equations.
     work : FitWork
         Cost.
+    slopes : str
+        Of which parameters the derivatives were exact, and of which differences of runs.
     """
 
     scene: Any = field(repr=False)
@@ -75,6 +77,7 @@ class Fit(Answer):
     sources: tuple[str, ...] = field(repr=False)
     work: FitWork = field(repr=False)
     has_converged: bool = True
+    slopes: str = ""
     searched: Searched | None = field(default=None, repr=False)
 
     @property
@@ -244,6 +247,8 @@ class Fit(Answer):
             f"  chi^2 = {self.chi2:.4g} for {self.dof} degrees of freedom, AICc = "
             f"{self.aicc:.5g}, {self.work.n_runs} runs"
         )
+        if self.slopes:
+            lines.append(f"  slopes: {self.slopes}")
         lines += [f"  {v}" for v in self.validity if v.is_valid is False]
         return "\n".join(lines)
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from ..errors import ContactkitError, ConvergenceError
-from .model import Model, Prediction
+from .model import Model, Prediction, Slopes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -65,6 +65,8 @@ class Problem:
         ]
         self._limits = model.limits()
         self._norms = np.full(len(self.width), np.nan)
+        self.exact = (False,) * len(self.width)
+        """Parameters whose last derivatives were exact."""
         self._progress = progress
 
     def values(self, place: Floats) -> tuple[float, ...]:
@@ -130,36 +132,60 @@ class Problem:
         values = self.values(place)
         found = self.model.predict(values)
         base, error = self._rows(found, values), math.sqrt(self._squared_errors(found))
-        columns = []
-        for i in range(len(self.width)):
-            exact = self._exact(i, place, found)
-            columns.append(
-                self._difference(i, place, base, error, is_central) if exact is None else exact
-            )
+        known = self.model.slopes(values, found)
+        self.exact = tuple(one is not None for one in known)
+        unknown = [i for i, one in enumerate(known) if one is None]
+        self.ahead(
+            self._shifted(i, place, sign * self._side(i, place, error))
+            for i in unknown
+            for sign in ((1.0, -1.0) if is_central else (1.0,))
+        )
+        columns = [
+            self._difference(i, place, base, error, is_central)
+            if one is None
+            else self._exact(i, place, found, one)
+            for i, one in enumerate(known)
+        ]
         slopes = np.column_stack(columns)
         self._norms = np.linalg.norm(slopes, axis=0)
         return slopes
 
-    def _exact(self, i: int, place: Floats, found: Prediction) -> Floats | None:
-        known = self.model.slope(i, self.values(place), found)
-        if known is None:
-            return None
+    def ahead(self, places: Iterable[Floats]) -> None:
+        """Have worker processes make the runs of some coordinates, if there are any."""
+        inside = (
+            place for place in places if np.all(np.abs(place - np.clip(place, *self.ends)) <= 0.0)
+        )
+        self.model.ahead([self.values(place) for place in inside])
+
+    def _exact(self, i: int, place: Floats, found: Prediction, known: Slopes) -> Floats:
         factor = self.model.parameters[i].slope(float(place[i]))
-        rows = [-factor * s / d for s, d in zip(known, self._deviation, strict=True)]
+        rows = [-factor * s / d for s, d in zip(known.readings, self._deviation, strict=True)]
+        bounds = [
+            -factor * slope / noise if number < low or number > high else 0.0
+            for slope, number, (low, high, noise) in zip(
+                known.numbers.tolist(), found.numbers, self._limits, strict=True
+            )
+        ]
         priors = [
             -factor / one.prior[1] if j == i else 0.0
             for j, one in enumerate(self.model.parameters)
             if one.prior is not None
         ]
-        return np.concatenate([*rows, np.zeros(len(self.model.bounds)), np.array(priors)])
+        return np.concatenate([*rows, np.array(bounds), np.array(priors)])
+
+    def _side(self, i: int, place: Floats, error: float) -> float:
+        """Step of a difference, to the side with more room."""
+        step = self._step(i, error)
+        up = self.ends[1][i] - place[i] >= place[i] - self.ends[0][i]
+        return step if up else -step
 
     def _difference(
         self, i: int, place: Floats, base: Floats, error: float, is_central: bool
     ) -> Floats:
         """Forward difference, or backward where that leaves the bounds or there is no result."""
-        step = self._step(i, error)
+        first = self._side(i, place, error)
+        step, second = abs(first), -first
         room = place[i] - self.ends[0][i], self.ends[1][i] - place[i]
-        first, second = (step, -step) if room[1] >= room[0] else (-step, step)
         if is_central and min(room) >= step:
             both = [self._moved(i, place, one) for one in (step, -step)]
             if all(np.isfinite(one).all() for one in both):
@@ -178,11 +204,15 @@ class Problem:
         )
 
     def _moved(self, i: int, place: Floats, step: float) -> Floats:
-        moved = place.copy()
-        moved[i] += step
+        moved = self._shifted(i, place, step)
         if not self.ends[0][i] <= moved[i] <= self.ends[1][i]:
             return np.full(self.n_rows, np.nan)
         return self.residuals(moved)
+
+    def _shifted(self, i: int, place: Floats, step: float) -> Floats:
+        moved = place.copy()
+        moved[i] += step
+        return moved
 
     def _step(self, i: int, error: float) -> float:
         """Step that changes chi^2 by about one, and the readings by more than their error."""

@@ -1,4 +1,4 @@
-"""Files from elsewhere: read within limits, or refused before memory is taken.
+"""Safe readers of untrusted files: within limits, or refused before memory is taken.
 
 limits        Limits of the size of a file and of what it announces, and how they are raised.
 texts         Texts of limited size, and plain values of limited depth from TOML and JSON.

@@ -25,8 +25,8 @@ class Effect(Described, abc.ABC):
     """Effects of a kind of scene, as its role declares: ``"contact effect"`` and so on."""
     name: ClassVar[str]
     summary: ClassVar[str]
-    takes_grid: ClassVar[bool] = False
-    """Whether a separation with it may be solved on cells of `Accuracy.grid`."""
+    solves_motion: ClassVar[bool] = False
+    """Whether it is solved together with the motion, which then does not read `Loading.reads`."""
     figures: ClassVar[tuple[str, ...]] = ()
     """Figures of a result that this effect makes possible: methods of ``result.plot``."""
 
@@ -41,6 +41,10 @@ class Effect(Described, abc.ABC):
 
     def liquid_needs(self, scene: Any) -> tuple[str, ...]:
         """Properties of the liquid that the effect uses in a scene."""
+        return ()
+
+    def reads(self, scene: Any) -> tuple[str, ...]:
+        """Name the settings of `Accuracy` that it reads in a scene, beside those of the loading."""
         return ()
 
     def lacks(self, scene: Any) -> tuple[str, ...]:

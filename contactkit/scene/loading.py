@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Literal, NamedTuple
 
 from attrs import Attribute, field, fields, frozen
 
+from ..accuracy import Accuracy
 from ..errors import DescriptionError, PlanError
 from ..units import si
 from ..validators import (
@@ -48,6 +49,8 @@ class Loading(Described, abc.ABC):
     """A loading of two bodies; its kind is its name in files."""
 
     kind: ClassVar[str]
+    reads: ClassVar[tuple[str, ...]] = tuple(Accuracy.standard.values)
+    """Settings of `Accuracy` that its solution reads; all of them, unless it says which."""
 
     @property
     @abc.abstractmethod
@@ -167,6 +170,7 @@ class ImposedSpeed(SeparationLoading):
 
     kind: ClassVar[str] = "imposed-speed"
     imposed: ClassVar[str] = "speed"
+    reads: ClassVar[tuple[str, ...]] = ("points", "curve_rtol")
 
     speed: float = field(validator=positive, metadata=si("m/s"))
     vibration: Vibration | None = field(default=None, validator=optional(part(Vibration)))
@@ -213,6 +217,7 @@ class ImposedTime(SeparationLoading):
 
     kind: ClassVar[str] = "imposed-time"
     imposed: ClassVar[str] = "time"
+    reads: ClassVar[tuple[str, ...]] = ("points", "curve_rtol")
 
     time: float = field(validator=positive, metadata=si("s"))
 
@@ -243,6 +248,7 @@ class ImposedForce(SeparationLoading):
 
     kind: ClassVar[str] = "imposed-force"
     imposed: ClassVar[str] = "force"
+    reads: ClassVar[tuple[str, ...]] = ("time_rtol", "curve_rtol", "max_steps")
 
     force: float = field(validator=finite, metadata=si("N"))
     mass: float | None = field(default=None, validator=optional(positive), metadata=si("kg"))
@@ -348,6 +354,7 @@ class ContactLoading(Loading):
     """
 
     family: ClassVar[str] = "contact loading"
+    reads: ClassVar[tuple[str, ...]] = ("grid", "rtol", "method", "max_iterations", "threads")
 
     @abc.abstractmethod
     def mean_pressure(self, area: float) -> float | None:
@@ -530,6 +537,7 @@ class Sliding(Loading):
 
     family: ClassVar[str] = "sliding loading"
     kind: ClassVar[str] = "sliding"
+    reads: ClassVar[tuple[str, ...]] = ("points", "curve_rtol")
 
     gap: float = field(validator=non_negative, metadata=si("m"))
     speed: float | None = field(default=None, validator=optional(positive), metadata=si("m/s"))

@@ -10,7 +10,7 @@ from ..accuracy import Accuracy
 from ..errors import NotSimulatedError, PlanError
 from ..registry import Registries, Registry
 from .effect import Effect, as_written, choices
-from .scenes import ContactScene, Scene, SeparationScene, SlidingScene
+from .scenes import Scene
 
 __all__ = ["ScenePlan", "check_accuracy", "check_plan", "check_scene"]
 
@@ -144,7 +144,7 @@ def check_scene(given: object, kinds: type[Scene] | tuple[type[Scene], ...]) -> 
 
 
 def check_accuracy(given: object, scene: Scene) -> None:
-    """Refuse what is no `Accuracy`, such as a tolerance or a name, and settings of other scenes.
+    """Refuse what is no `Accuracy`, such as a tolerance or a name, and settings that nothing reads.
 
     Raises
     ------
@@ -155,22 +155,18 @@ def check_accuracy(given: object, scene: Scene) -> None:
         known = isinstance(given, str) and hasattr(Accuracy, given)
         cure = f"ck.Accuracy.{given}" if known else "ck.Accuracy(rtol=...)"
         raise PlanError(f"an Accuracy is needed beside the scene, got {given!r}; write {cure}")
-    takes_grid = any(getattr(effect, "takes_grid", False) for effect in scene.effects)
-    if isinstance(given, Accuracy) and (
-        name := given.unread(_kind_of(scene), takes_grid=takes_grid)
-    ):
-        reader = (
-            "the method active-set" if name == "max_iterations" else f"a {type(scene).__name__}"
-        )
-        raise PlanError(
-            f"Accuracy.{name} = {getattr(given, name)!r} is not read by {reader}: leave it out"
-        )
+    if not (isinstance(given, Accuracy) and given.given):
+        return
+    if name := given.unread(scene.reads):
+        what = f"{type(scene).__name__} with {type(scene.loading).__name__}"
+        raise _unread(given, name, f"a {what} and these effects")
+    if "max_iterations" in given.given and given.method == "active-set":
+        raise _unread(given, "max_iterations", "the method active-set")
 
 
-def _kind_of(scene: Scene) -> str:
-    """Name of the kind of scene of contactkit that a scene is, or is made from; empty for none."""
-    known = (ContactScene, SeparationScene, SlidingScene)
-    return next((kind.__name__ for kind in known if isinstance(scene, kind)), "")
+def _unread(given: Accuracy, name: str, reader: str) -> PlanError:
+    value = getattr(given, name)
+    return PlanError(f"Accuracy.{name} = {value!r} is not read by {reader}: leave it out")
 
 
 def _check_kind(given: object) -> None:

@@ -210,9 +210,9 @@ class Result(Answer):
         Raises
         ------
         NotSimulatedError
-            If the result has no gradient: of a contact with loading history, coupled friction,
-            adhesion or a hardness that follows the displacement; of a motion that rests on
-            asperities or whose cavity is remembered.
+            If the result has no gradient: of a contact that was unloaded, with coupled friction, a
+            film force of its own or a hardness that follows the displacement; of a motion that
+            rests on asperities or whose cavity is remembered.
         DescriptionError
             If there is no such number or parameter, or it has no gradient.
 

@@ -76,6 +76,14 @@ class Scene(InWords, Described):
         """Name of the function that runs the plan of such a scene."""
         return "simulate"
 
+    @property
+    def reads(self) -> frozenset[str]:
+        """Names of the settings of `Accuracy` that its solution reads."""
+        effects = [effect for effect in self.effects if isinstance(effect, Effect)]
+        leading = [effect for effect in effects if effect.solves_motion]
+        of_loading = () if leading else self.loading.reads
+        return frozenset(of_loading).union(*(e.reads(self) for e in leading or effects))
+
     def effect(self, kind: type[_E]) -> _E | None:
         """Return the effect of a kind; None if the scene does not call for it."""
         return next((effect for effect in self.effects if isinstance(effect, kind)), None)

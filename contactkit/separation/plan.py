@@ -99,7 +99,7 @@ class Plan(ScenePlan):
         return self._left[FilmState(volume_fraction, broken, detached)]
 
     def acting_film(self, gap: float) -> Film | None:
-        """Return what acts at a gap [m] on bodies that are opened once: None if nothing does."""
+        """Return what acts at a gap [m] during a monotonic opening: None if nothing does."""
         film = self.film
         return self.remaining_film(1.0, broken=gap > film.end, detached=gap > film.release)
 

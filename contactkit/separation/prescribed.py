@@ -128,7 +128,7 @@ def _limited(film: Film) -> Callable[[float, float], float]:
 
 
 def _end(plan: Plan, kind: type[SeparationForce]) -> float:
-    """Gap [m] up to which a force acts on bodies that are opened once."""
+    """Gap [m] up to which a force acts during a monotonic opening."""
     film = plan.film
     return min(film.laws[kind].release, film.end if kind.needs_film else math.inf)
 

@@ -222,7 +222,7 @@ def pulls_of_cycles(
 
 
 def _numbers_of_motion(plan: Plan, state: MotionState) -> dict[str, tuple[float, str]]:
-    """Numbers of a motion; what it did not come to is nan."""
+    """Scalars of a motion; nan for events that did not occur."""
     released = state.n_releases > 0
     has_speed = released and plan.scene.imposed_force.mass is not None
     found = {

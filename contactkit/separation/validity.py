@@ -11,12 +11,12 @@ from ..validity import ValidityNumber
 from .effects.base import FilmStatus
 from .plan import Plan
 
-__all__ = ["check", "is_whole"]
+__all__ = ["check", "is_whole", "path_of"]
 
 
 def check(plan: Plan, columns: Mapping[str, Any]) -> tuple[ValidityNumber, ...]:
     """Evaluate the numbers of a plan along the curves of a run."""
-    return plan.validity(_path(plan, columns))
+    return plan.validity(path_of(plan, columns))
 
 
 def is_whole(plan: Plan, columns: Mapping[str, Any]) -> Any:
@@ -26,7 +26,7 @@ def is_whole(plan: Plan, columns: Mapping[str, Any]) -> Any:
     return columns["gap"] <= plan.film.end
 
 
-def _path(plan: Plan, columns: Mapping[str, Any]) -> list[tuple[float, float]]:
+def path_of(plan: Plan, columns: Mapping[str, Any]) -> list[tuple[float, float]]:
     """Pairs of gap [m] and speed [m/s] where the film spans an open gap.
 
     With only a time imposed the speed is the mean one.

@@ -15,7 +15,7 @@ from ..errors import ContactkitError
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
 from ..units import quantity_text
 from .paths import Parameters, values_at
-from .run import Done, Piece, Task, run_piece
+from .run import Done, Piece, Task
 from .stream import check_axes
 from .study import check_whole
 from .study_file import StudyWriter
@@ -165,7 +165,7 @@ def plan_study(
     for place in (places[0], *places):
         task = Task(place, values_at(varied, place), "")
         begun = time.process_time()
-        found += run_piece(Piece(scene, accuracy, (task,), None, False))
+        found += Piece(scene, accuracy, (task,), None, False).run()
         seconds.append(time.process_time() - begun)
     found, seconds = found[1:], seconds[1:]
     points = [done.point for done in found]

@@ -34,8 +34,8 @@ __all__ = [
     "one_thread",
     "put",
     "run_in_worker",
-    "run_piece",
     "run_remotely",
+    "unpacked",
 ]
 
 _PINNED = (
@@ -66,6 +66,16 @@ class Piece:
     store: Store | None
     keeps_maps: bool
     retries: int = 0
+
+    def run(self) -> Iterator[Done]:
+        """Solve the points, and write each to the store when it is finished."""
+        chain = _Chain()
+        for task in self.tasks:
+            point, result = _solved(chain, self, task)
+            maps = to_bytes(result) if self.keeps_maps and result is not None else None
+            if self.store is not None:
+                point = put(self.store, task.key, point, maps)
+            yield Done(task.place, point, maps)
 
 
 class Done(NamedTuple):
@@ -101,17 +111,6 @@ class _Chain:
         result = chain.solve(self._plan)
         warn(result.validity)
         return result
-
-
-def run_piece(piece: Piece) -> Iterator[Done]:
-    """Solve the points of a piece, and write each to the store when it is finished."""
-    chain = _Chain()
-    for task in piece.tasks:
-        point, result = _solved(chain, piece, task)
-        maps = to_bytes(result) if piece.keeps_maps and result is not None else None
-        if piece.store is not None:
-            point = put(piece.store, task.key, point, maps)
-        yield Done(task.place, point, maps)
 
 
 def put(store: Store, key: str, point: StudyPoint, maps: bytes | None) -> StudyPoint:
@@ -185,10 +184,15 @@ _REPORT = 2**15
 _worker: dict[str, Any] = {}
 
 
+def unpacked(sent: bytes) -> Any:
+    """Return what a piece in a worker process of this one has pickled."""
+    return pickle.loads(sent)
+
+
 def run_remotely(piece: bytes) -> list[Done]:
     """Solve a pickled piece, on a client of any kind; the rest of a long one is sent again."""
     begun, found = time.perf_counter(), list[Done]()
-    for done in run_piece(pickle.loads(piece)):
+    for done in pickle.loads(piece).run():
         found.append(done)
         if time.perf_counter() - begun > _LONG:
             break
@@ -222,7 +226,7 @@ def run_in_worker(piece: bytes) -> list[Done]:
     a pipe, so that a worker that is killed leaves no half of it.
     """
     left = []
-    for done in run_piece(pickle.loads(piece)):
+    for done in pickle.loads(piece).run():
         reported = done._replace(maps=None)
         is_small = len(pickle.dumps(reported)) < _REPORT
         if is_small:

@@ -9,6 +9,7 @@ import warnings
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor
+from contextlib import contextmanager
 from typing import Any
 
 from attrs import evolve
@@ -21,12 +22,11 @@ from .run import (
     begin_worker,
     one_thread,
     run_in_worker,
-    run_piece,
     run_remotely,
 )
 from .store import StudyPoint
 
-__all__ = ["run_here", "run_in_processes", "run_on_client"]
+__all__ = ["Take", "processes", "run_here", "run_in_processes", "run_on_client"]
 
 Take = Callable[[Done], None]
 """Takes a finished point; one whose maps arrive later is taken twice, first without them."""
@@ -44,7 +44,7 @@ _DIED = (
 def run_here(pieces: Iterable[Piece], take: Take) -> None:
     """Run pieces in sequence in this process."""
     for piece in pieces:
-        for done in run_piece(piece):
+        for done in piece.run():
             take(done)
 
 
@@ -61,11 +61,23 @@ def run_in_processes(pieces: Iterable[Piece], workers: int, take: Take) -> None:
     ContactkitError
         If workers die before they have begun.
     """
+    with processes(workers, take) as run:
+        run(pieces, take)
+
+
+@contextmanager
+def processes(
+    workers: int, last: Take = lambda done: None
+) -> Iterator[Callable[[Iterable[Piece], Take], None]]:
+    """Worker processes that run pieces time and again, as `run_in_processes` does once.
+
+    `last` takes the points that are finished when the processes end.
+    """
     pool = _Processes(workers)
     try:
-        _Spread(pool, workers * _AHEAD, take).run(pieces)
+        yield lambda pieces, take: _Spread(pool, workers * _AHEAD, take).run(pieces)
     finally:
-        pool.close(take)
+        pool.close(last)
 
 
 def run_on_client(pieces: Iterable[Piece], client: Any, slots: int, take: Take) -> None:

@@ -2,6 +2,9 @@
 
 ``python docs/scripts/measure_bridges.py`` prints them, ``--write`` puts them into the page. Names
 select some: ``... flats spheres breaks printed``.
+
+Not a study of `contactkit.benchmarks.table`: a closure has no setting that refines it. Its error is
+that of its physics, over bands of the gap, against the exact bridge, whose own error is a study.
 """
 
 from __future__ import annotations

@@ -4,6 +4,9 @@
 minutes. Five structures of two layers on a substrate of 100 GPa; the surface of the source (rms
 1 nm, correlation length 0.5 um) on 256 x 256 pixels, eight to its shortest wave; mean of two
 surfaces, on windows of 5 um, and of 1.25 um where it is to yield.
+
+Not a study of `contactkit.benchmarks.table`: it compares structures at one setting, so that it has
+neither settings to refine nor a reference, and what it finds is physics, not an error of a solver.
 """
 
 from __future__ import annotations

@@ -50,7 +50,11 @@ class Case(NamedTuple):
     accuracy: ck.Accuracy | None = None
     n: int = 5
     heading: str = ""
-    percent: bool = False
+
+    @property
+    def percent(self) -> bool:
+        """Whether the answer is a fraction, to be read in per cent."""
+        return isinstance(self.answer, str) and self.answer.endswith("fraction")
 
 
 def cases() -> dict[str, Case]:
@@ -78,8 +82,7 @@ def _disk(answer: str) -> Case:
     device = open_scene("head-disk")
     lean = head_disk.without_stresses(device.scene)
     ranges, names = head_disk.RANGES, head_disk.NAMES
-    heading, percent = DISK[answer], answer.endswith("fraction")
-    return Case(lean, ranges, names, answer, None, "", device.accuracy, 2, heading, percent)
+    return Case(lean, ranges, names, answer, None, "", device.accuracy, 2, DISK[answer])
 
 
 def table(found: Sensitivity, names: Mapping[str, str]) -> str:

@@ -109,7 +109,7 @@ class Walk:
         self._accept(found, length, end, mark)
 
     def _rest(self, point: Point, end: float) -> None:
-        """Stay on what keeps the bodies apart, until the pull exceeds what holds."""
+        """Hold at the stop until the pull exceeds the holding force."""
         length = min(end - point.time, _REST * self.goal.stop_time)
         holding = self.body.stiffness * (point.gap - self.body.rest) + point.film.static
         start = self.pull.save()
@@ -209,7 +209,7 @@ class Walk:
     def _settle(
         self, found: Doubled, length: float, mark: float | None
     ) -> tuple[float, float, Reaction]:
-        """Move the film to the end of a step; gap and speed share out what they miss together.
+        """Move the film to the end of a step; gap and speed share the residual.
 
         Extrapolated one by one they miss the momentum of both, which is the better known: where
         the film rules that moves the gap, else the speed.

@@ -12,8 +12,7 @@ from __future__ import annotations
 import math
 
 from ...numerics.radau_tableau import WEIGHTS
-from ...separation.integrator.radau import Forces, Problem, against_halves, step
-from ...separation.integrator.radau import Point as Motion
+from ...separation.integrator.radau import Forces, MotionPoint, StepProblem, against_halves, step
 from .impulse_step import Body, Doubled, Passing, Point, given
 from .sides import FilmSide, Force, Pull, Pulling
 
@@ -48,7 +47,7 @@ class _Film:
         viscous = found.force - found.static
         return Forces(found.static, 0.0, viscous, found.stiffness, found.damping, self._film)
 
-    def problem(self, body: Body, point: Point, pulling: Pulling, rtol: float) -> Problem:
+    def problem(self, body: Body, point: Point, pulling: Pulling, rtol: float) -> StepProblem:
         """Pose a step of the mass."""
         first = self.forces(point.gap, point.speed)
         damping = self.feel(point.gap, 0.0).damping  # no limit acts at rest
@@ -58,7 +57,7 @@ class _Film:
         if damping > 0.0:
             nearer = self.feel(_NEARER * point.gap, 0.0).damping
             exponent = max(math.log(nearer / damping) / -math.log(_NEARER), 0.0)
-        return Problem(
+        return StepProblem(
             mass=body.mass,
             pull=pulling,
             stiffness=body.stiffness,
@@ -66,7 +65,7 @@ class _Film:
             forces=self.forces,
             has_limits=True,
             exponent=exponent,
-            begin=Motion(point.time, point.gap, point.speed),
+            begin=MotionPoint(point.time, point.gap, point.speed),
             first=first,
             rtol=rtol,
             size=size,
@@ -119,7 +118,7 @@ def forced(
         pull.free(mark)
 
 
-def _given_in_halves(pull: Pull, point: Point, length: float, end: Motion) -> float:
+def _given_in_halves(pull: Pull, point: Point, length: float, end: MotionPoint) -> float:
     """Impulse of the pull over a step [N.s], the source of which gets the motion half way."""
     half = 0.5 * length
     gap = 0.5 * (point.gap + end.gap) + 0.125 * length * (point.speed - end.speed)

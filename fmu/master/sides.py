@@ -172,7 +172,7 @@ class Pull(Protocol):
         """Go over a step that begins at `time` [s]; gap [m] and speed [m/s] are those there."""
 
     def save(self) -> Any:
-        """Point to go back to."""
+        """State of the FMU to roll back to."""
 
     def restore(self, state: Any) -> None:
         """Go back to it."""

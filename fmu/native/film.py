@@ -20,7 +20,7 @@ from ...separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce
 from ...separation.face.shape import on_face
 from ...separation.plan import Plan, plan
 from .records import Film, FilmTables, Grid, Law, Rate, Scale, Table
-from .tables import tabulate
+from .tables import Tabulate, tabulate
 
 __all__ = ["FINE", "PreparedFilm", "can_cavitate", "free_liquid", "moving", "prepared_film"]
 
@@ -96,8 +96,10 @@ def free_liquid(prepared: PreparedScene[SeparationScene]) -> FreeLiquid:
     return FreeLiquid(viscosity, tension)
 
 
-def prepared_film(scene: SeparationScene, accuracy: Accuracy = FINE) -> PreparedFilm:
-    """Tables of the films of a scene.
+def prepared_film(
+    scene: SeparationScene, accuracy: Accuracy = FINE, make: Tabulate = tabulate
+) -> PreparedFilm:
+    """Tables of the films of a scene, each made by `make`: first those of the forces of a film.
 
     Raises
     ------
@@ -110,7 +112,8 @@ def prepared_film(scene: SeparationScene, accuracy: Accuracy = FINE) -> Prepared
     is_sphere = not interface.is_flat and not on_face(scene)
     returns = scene.meniscus.volume is not None and 0.0 < fraction < 1.0
     tension = scene.effect(TensionLimit)
-    common = _Common(made, free_liquid(made.prepared), max(1e-13, 1e-3 * loading.initial_gap))
+    lowest = max(1e-13, 1e-3 * loading.initial_gap)
+    common = _Common(made, free_liquid(made.prepared), lowest, make)
     _check_limits(common)
     tables = FilmTables(
         is_sphere=is_sphere,
@@ -131,6 +134,7 @@ class _Common(NamedTuple):
     plan: Plan
     free: FreeLiquid
     lowest: float
+    make: Tabulate
 
     @property
     def final_gap(self) -> float:
@@ -294,7 +298,7 @@ def _law_table(
         folds.add(law.release)
     edges = [lowest, *sorted(inside), high]
     try:
-        return tabulate(force, edges, folds=tuple(folds), stays=stays)
+        return common.make(force, edges, folds=tuple(folds), stays=stays)
     except ConvergenceError as error:
         raise ConvergenceError(
             f"{type(effect).__name__} has no native form: {error}; or take profile='arc' if it is "
@@ -307,9 +311,9 @@ def _shape(common: _Common, shape: FilmShape | None) -> Table:
     """Reach of the film, for the limits of the liquid."""
     lowest, high = common.lowest, _FAR * common.final_gap
     if shape is None:
-        return tabulate(lambda gap: 1.0, (lowest, high))
+        return common.make(lambda gap: 1.0, (lowest, high))
     marks = {mark for mark in (shape.full_gap, shape.level) if lowest < mark < high}
-    return tabulate(_reach(shape), (lowest, *sorted(marks), high))
+    return common.make(_reach(shape), (lowest, *sorted(marks), high))
 
 
 def _reach(shape: FilmShape) -> Callable[[float], float]:

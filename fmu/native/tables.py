@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ...errors import ConvergenceError
 from .records import Piece, Table
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-__all__ = ["tabulate"]
+__all__ = ["Tabulate", "quintics", "tabulate"]
 
 # Measured on six tables (films, menisci with and without a fold, an exponential): 3850 nodes, 3210
 # calls of the functions, 1e-12 of a value between the nodes.
@@ -48,6 +48,20 @@ _MOST_NODES = 60_000  # of a piece, 2 MB: a rougher force is refused, with the c
 # become slowly varying. With 2 the tables have 7 % more nodes, with 4 and 16 the same; a bound is
 # needed as noise at the lowest gap may have any slope.
 _STEEPEST = 8
+
+
+class Tabulate(Protocol):
+    """A way to tabulate a function of the gap, as `tabulate` does."""
+
+    def __call__(
+        self,
+        function: Callable[[float], float],
+        edges: Sequence[float],
+        *,
+        folds: Sequence[float] = (),
+        stays: bool = False,
+    ) -> Table:
+        """Tabulate a function between edges; see `tabulate`."""
 
 
 def tabulate(
@@ -199,7 +213,7 @@ def _places(series: Any, a: float, b: float, rtol: float) -> Floats:
         nodes = np.linspace(a, b, count + 1)
         width = (b - a) / count
         places = nodes[:-1] + fractions * width
-        values, slopes = _quintics(
+        values, slopes = quintics(
             fractions, series(nodes), rate(nodes) * width, bend(nodes) * width**2
         )
         error = float(np.max(np.abs(values - series(places))))
@@ -209,7 +223,7 @@ def _places(series: Any, a: float, b: float, rtol: float) -> Floats:
         count *= 2
 
 
-def _quintics(t: Floats, y: Floats, m: Floats, w: Floats) -> tuple[Floats, Floats]:
+def quintics(t: Floats, y: Floats, m: Floats, w: Floats) -> tuple[Floats, Floats]:
     """Values and slopes at fractions t of the intervals between nodes; as ``kernel/data.c``."""
     rise, m0, m1, w0, w1 = y[1:] - y[:-1], m[:-1], m[1:], w[:-1], w[1:]
     c = 10.0 * rise - 6.0 * m0 - 4.0 * m1 - 1.5 * w0 + 0.5 * w1

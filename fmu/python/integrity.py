@@ -87,6 +87,8 @@ def _relocate(folder: Path) -> None:
     """
     for name, module in list(sys.modules.items()):
         package, _, rest = name.partition(".")
+        if package != folder.name:  # many a module of others makes its attributes when asked
+            continue
         paths = getattr(module, "__path__", None)
-        if package == folder.name and paths and not any(Path(path).exists() for path in paths):
+        if paths and not any(Path(path).exists() for path in paths):
             module.__path__ = [str(folder.joinpath(*filter(None, rest.split("."))))]

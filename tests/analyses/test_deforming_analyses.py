@@ -36,6 +36,7 @@ def opening(speed=1e-5):
     return ck.ImposedSpeed(speed=speed, initial_gap=1e-6, final_gap=5e-6)
 
 
+@pytest.mark.slow
 def test_pull_off_over_speed():
     curve = ck.pull_off_over_speed(scene(opening()), [1e-6, 1e-5], DRAFT)
     assert curve.beta == pytest.approx([0.1, 1.0], rel=1e-6)
@@ -43,6 +44,7 @@ def test_pull_off_over_speed():
     assert {"force", "work"} <= set(curve.plot.available)
 
 
+@pytest.mark.slow
 def test_release_over_force_and_rest():
     pulled = ck.ImposedForce(force=1e-4, initial_gap=1e-6, final_gap=4e-6)
     curve = ck.release_over(scene(pulled), forces=[1e-4, 2e-4], accuracy=DRAFT)

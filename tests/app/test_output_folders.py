@@ -169,6 +169,7 @@ def test_an_fmu_replaces_only_fmus_of_contactkit(tmp_path, capsys):
         assert path.read_bytes() == text
 
 
+@pytest.mark.slow
 def test_start_values_of_an_fmu_are_set_by_name_or_path(tmp_path, scene, capsys):
     fmpy = pytest.importorskip("fmpy")
 

@@ -139,6 +139,7 @@ def test_what_it_has_not_is_refused_with_words(scene):
         planning.register_scene(FallScene, plan=FallPlan, run=run_fall)
 
 
+@pytest.mark.slow
 def test_an_own_effect_is_drawn_by_a_run(tmp_path):
     """Its map has no figure of its own."""
     pytest.importorskip("matplotlib")

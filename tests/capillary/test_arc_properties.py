@@ -125,6 +125,7 @@ def test_weakly_curved_bodies_join_the_flats(lower, upper, fraction, which):
         )
 
 
+@pytest.mark.slow
 @given(
     st.floats(0.0, math.pi),
     st.floats(0.0, math.pi),

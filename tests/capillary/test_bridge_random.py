@@ -156,6 +156,7 @@ def test_pressure_and_volume_are_two_ways_to_one_bridge(exponent):
     assert free.pressure == pytest.approx(np.full(4, pressure), rel=1e-8)
 
 
+@pytest.mark.slow
 def test_the_law_of_a_scene_is_the_bridge_for_any_pair_of_angles():
     for one, two in [case[:2] for case in cases(31, 40) if case[2] == case[3] == 0.0]:
         law = flat_law(one, two)

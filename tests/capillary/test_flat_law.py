@@ -24,7 +24,7 @@ def angles(case):
     return math.radians(case["theta1_deg"]), math.radians(case["theta2_deg"])
 
 
-@pytest.mark.parametrize("case", FLAT, ids=lambda case: case["id"])
+@pytest.mark.parametrize("case", quick(FLAT, *range(0, 12, 3)), ids=lambda case: case["id"])
 def test_force_of_the_reference_bridges(case):
     size = case["V"] ** (1.0 / 3.0)
     force = size * flat_law(*angles(case)).force(case["D"] / size)
@@ -73,7 +73,7 @@ def test_force_is_that_of_the_solved_bridge_at_every_gap(pair):
     assert np.max(np.abs(force - solved.force) / scale) < 2e-8
 
 
-@pytest.mark.parametrize("pair", quick([(one,) for one in PAIRS], 1, 4, 7, 10, 13), ids=str)
+@pytest.mark.parametrize("pair", quick([(one,) for one in PAIRS], 1, 7, 13), ids=str)
 def test_a_pinned_bridge_is_the_free_one_of_its_volume(pair):
     lower, upper = map(math.radians, pair)
     law, free = flat_law(lower, upper, pinned=True), flat_law(lower, upper)
@@ -84,9 +84,7 @@ def test_a_pinned_bridge_is_the_free_one_of_its_volume(pair):
         assert law.force(gap) == pytest.approx(size * free.force(gap / size), rel=1e-7, abs=1e-7)
 
 
-@pytest.mark.parametrize(
-    "pair", quick([(one,) for one in PAIRS], 0, 2, 4, 6, 8, 10, 12, 14), ids=str
-)
+@pytest.mark.parametrize("pair", quick([(one,) for one in PAIRS], 0, 6, 10, 14), ids=str)
 @pytest.mark.parametrize("pinned", [False, True])
 def test_a_thin_film_is_an_arc_without_a_step(pair, pinned):
     lower, upper = map(math.radians, pair)

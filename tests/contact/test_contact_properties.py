@@ -277,6 +277,7 @@ def test_sliding_the_other_way_under_a_mirror_mirrors_the_stress(
         assert mises == pytest.approx(mirrored, rel=1e-4)
 
 
+@pytest.mark.slow
 @few
 @given(maps(), pixels, solids, edges)
 def test_the_stress_is_linear_in_friction_and_balances_the_load(heights, pixel, solid, periodic):

@@ -259,7 +259,6 @@ def test_a_coated_half_space_carries_the_sphere_as_the_table_says(layered, name)
         [(STRESSED[0], "0.25"), (STRESSED[0], "0.5"), (STRESSED[3], "0"), (STRESSED[3], "0.25")]
         + [(STRESSED[k], friction) for k in (1, 2, 4) for friction in ("0", "0.25", "0.5")],
         1,
-        2,
         8,
     ),
 )

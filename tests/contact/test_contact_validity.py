@@ -252,6 +252,7 @@ def test_a_film_that_pulls_more_than_the_load_says_what_it_would_pull_in_balance
     assert balanced.of(ck.FilmMeniscus).self_consistent_force is None
 
 
+@pytest.mark.slow
 def test_the_smoothest_surface_of_the_source_states_the_size_in_balance():
     """The lowest load of Fig. 2.25 on sigma = 1 nm, beta* = 0.5 um: 7 and 180 times the load."""
     surface = ck.GaussianRoughness(rms=1e-9, correlation_length=0.5e-6, cutoff=625e-9)

@@ -246,6 +246,7 @@ def test_without_friction_adhesion_is_left():
         assert pair.pressure == pytest.approx(alone.pressure, abs=1e-6 * alone.max_pressure)
 
 
+@pytest.mark.slow
 def test_without_work_of_adhesion_coupled_slip_is_left():
     pair, alone = solved(adhesion(1e-9), slip()), solved(slip())
     assert pair.pressure == pytest.approx(alone.pressure, abs=1e-5 * alone.max_pressure)
@@ -337,6 +338,7 @@ def test_adhesion_pulls_a_plastic_contact_deeper():
     assert again.residual_volume[-1] == one.residual_volume[-1]
 
 
+@pytest.mark.slow
 def test_without_flow_the_steps_of_a_history_are_steps_of_pressing():
     """Loads of a quarter and all: those of two steps of pressing."""
     steps = ck.PlasticHistory(pressures=(2e7,), steps=1)

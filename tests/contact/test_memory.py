@@ -53,6 +53,7 @@ def test_a_plan_states_the_memory_of_its_solve(periodic):
     assert "memory" not in str(found.plan)  # nothing is prepared there
 
 
+@pytest.mark.slow
 def test_memory_of_the_solver_is_that_of_ten_maps_or_six_padded_ones():
     """With the heights, pressure and displacement, and a twentieth of the map in contact.
 

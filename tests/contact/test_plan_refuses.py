@@ -6,6 +6,7 @@ import itertools
 
 import numpy as np
 import pytest
+from selection import quick
 
 import contactkit as ck
 
@@ -80,8 +81,7 @@ def refused(plan):
     return ""
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("surface", SURFACES)
+@pytest.mark.parametrize("surface", quick(SURFACES, long=[0, 1, 3]))
 def test_a_solve_refuses_nothing_that_its_plan_accepts(surface):
     solved, refusals = 0, {}
     for effects, loading, periodic in itertools.product(EFFECTS, LOADS, (True, False)):

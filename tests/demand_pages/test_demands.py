@@ -13,6 +13,7 @@ from demands.accuracy import ANALYSES, digit, shown
 from demands.effect_scenes import CONTACTS, ENTRIES
 from demands.effects import lists
 from demands.page import SHOWN, load
+from selection import quick
 
 import contactkit as ck
 from contactkit.benchmarks import timing
@@ -25,7 +26,15 @@ from contactkit.models.library import bundled_scene, bundled_scenes
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
-SLOW = {"isolated", "near-limit", "stiff-layer"}
+SLOW = {"isolated", "stiff-layer"}
+SLOWEST = {"near-limit"}
+
+
+def chosen(cases, long, longest):
+    """All cases, of which those of seconds are slow, and those of ten seconds exhaustive."""
+    cases = [*cases]
+    fast = [i for i, one in enumerate(cases) if one not in long | longest]
+    return quick(cases, *fast, long=[i for i, one in enumerate(cases) if one in long])
 
 
 @pytest.mark.parametrize("name", PAGES)
@@ -44,9 +53,7 @@ def test_every_hard_case_has_its_numbers():
     assert [case.name for case in CASES.values() if not (ROOT / case.tested).exists()] == []
 
 
-@pytest.mark.parametrize(
-    "key", [pytest.param(k, marks=pytest.mark.slow) if k in SLOW else k for k in CASES]
-)
+@pytest.mark.parametrize("key", chosen(CASES, SLOW, SLOWEST))
 def test_a_hard_case_still_holds_and_the_naive_method_still_fails(key):
     case, shown = CASES[key], load("hard-cases")["cases"][key]
     for found in (case.run(), Found(**shown)):
@@ -69,16 +76,11 @@ def test_every_registered_effect_has_its_entry_and_every_shipped_scene_its_effec
         assert one["sources"], name
 
 
-LONG = {*CONTACTS, ck.ElasticBodies, ck.SolidContact}  # seconds
+LONG = {*CONTACTS, ck.ElasticBodies, ck.LandauLevichFilm}  # seconds
+LONGEST = {ck.SolidContact}  # ten
 
 
-@pytest.mark.parametrize(
-    "kind",
-    [
-        pytest.param(kind, marks=[pytest.mark.slow] * (kind in LONG), id=kind.__name__)
-        for kind in ENTRIES
-    ],
-)
+@pytest.mark.parametrize("kind", chosen(ENTRIES, LONG, LONGEST), ids=lambda kind: kind.__name__)
 def test_an_effect_still_costs_what_the_page_counts(kind):
     """Counts, and that the scene without the effect has no trace of it."""
     entry, shown = ENTRIES[kind], SHOWN_EFFECTS[kind.name]

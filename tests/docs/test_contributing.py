@@ -211,6 +211,7 @@ def test_a_native_fmu_tabulates_it(plates):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("kernels_compiled_once")
 def test_a_native_fmu_answers_as_the_plan(made, tmp_path):
     fmpy = pytest.importorskip("fmpy")
     from contactkit.fmu.framework.toolchain import local

@@ -42,7 +42,7 @@ NUMBERS = {
 }
 
 
-LONG = ("area_and_theories", "coated_sphere")  # half a minute
+LONG = ("area_and_theories", "coated_sphere", "roller_on_sheet")  # ten seconds to half a minute
 
 
 def load(name):

@@ -26,7 +26,6 @@ def blocks(page, language):
 
 SLOW = (
     "adhesion",
-    "head-disk",
     "hosts",
     "films",
     "menisci",
@@ -34,14 +33,19 @@ SLOW = (
     "figures",
     "fit",
     "gradients",
+    "separation",
+    "contact",
+    "stress",
+    "data",
+    "wetting",
 )
 
 
 def with_blocks(language):
-    """Pages with blocks of a language; those about FMUs take long, curves of adhesion a minute."""
+    """Pages with blocks of a language; those about FMUs take long, two others longest."""
 
     def marks(page):
-        if page == ROOT / "docs" / "adhesion.md":
+        if page in (ROOT / "docs" / "adhesion.md", ROOT / "docs" / "head-disk.md"):
             return [pytest.mark.exhaustive]
         return [pytest.mark.slow] if "fmu" in page.name or page.stem in SLOW else []
 
@@ -60,10 +64,10 @@ def elsewhere(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("page", with_blocks("python"))
-def test_python_runs(page, elsewhere, capsys):
+def test_python_runs(page, elsewhere, capsys, request):
     if "fmu" in page.name:
-        pytest.importorskip("pythonfmu")
         pytest.importorskip("fmpy")
+        request.getfixturevalue("kernels_compiled_once")
     names = {"__name__": page.stem}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ck.ValidityWarning)  # the pages say that they come

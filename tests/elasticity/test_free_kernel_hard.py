@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from selection import quick
 
 from contactkit.elasticity import influence as free_kernel
 from contactkit.elasticity import layered, love, point_load
@@ -44,7 +45,7 @@ def test_near_and_far_forms_of_love_meet():
 
 
 @pytest.mark.parametrize("contrast", CONTRASTS)
-@pytest.mark.parametrize("thickness", [1e-3, 1.0, 30.0])
+@pytest.mark.parametrize("thickness", quick([1e-3, 1.0, 30.0], 0, 2))
 @pytest.mark.parametrize("pixel", [(1.0, 1.0), (0.3, 1.0)])
 def test_near_and_far_forms_of_a_stack_meet(monkeypatch, contrast, thickness, pixel):
     """Twenty against forty pixels of the integrals over triangles; of the centre 1e-9."""

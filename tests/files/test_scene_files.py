@@ -182,7 +182,7 @@ def test_a_result_that_could_not_be_read_again_is_refused():
         evolve(OIL, viscosity=Thinning(temperature_min=250.0, temperature_max=400.0)),
         temperature=300.0,
     )
-    result = ck.simulate(ck.plan(scene, ck.Accuracy(time_rtol=1e-4, points=20)))
+    result = ck.simulate(ck.plan(scene, ck.Accuracy(points=20)))
     with pytest.raises(DescriptionError, match=r"meniscus\.liquid\.viscosity"):
         to_bytes(result)
 

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import hashlib
 import importlib.util
-import os
-import shutil
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -16,9 +13,6 @@ import pytest
 pytest.importorskip("pythonfmu")
 fmpy = pytest.importorskip("fmpy")
 
-from shelf import Shelf  # noqa: E402
-
-from contactkit.fmu.native import build as native_build  # noqa: E402
 from contactkit.fmu.python import build as building  # noqa: E402  # both packages must be there
 
 TOY = Path(__file__).with_name("toy_slave.py")
@@ -136,33 +130,9 @@ def toy_fmu(shelf, toy_module):
     return shelf(building.build, "toy")
 
 
-@pytest.fixture(scope="session")
-def shelf(tmp_path_factory):
-    """FMUs that are built once in a run, whoever asks for them."""
-    return Shelf(tmp_path_factory)
-
-
 @pytest.fixture(scope="session", autouse=True)
-def kernels_compiled_once(shelf):
-    """A kernel that one worker has compiled serves all: each takes ten seconds."""
-    compile_kernel = native_build.compile_kernel
-
-    def compile_once(sources, name, out, compiler="auto"):
-        texts = {
-            path.name: path.read_bytes()
-            for path in sources.iterdir()
-            if path.suffix in {".c", ".h"}
-        }
-        asked = repr((native_build.digest(texts), name, compiler, os.environ.get("CC")))
-        kept = shelf.folder(
-            "kernel " + hashlib.sha256(asked.encode()).hexdigest()[:16],
-            lambda place: compile_kernel(sources, name, place / "library", compiler),
-        )
-        shutil.copy(kept / "library", out)
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(native_build, "compile_kernel", compile_once)
-        yield
+def _kernels_compiled_once(kernels_compiled_once):
+    pass
 
 
 @pytest.fixture

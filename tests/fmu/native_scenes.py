@@ -9,6 +9,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import pytest
+
 import contactkit as ck
 
 HERE = Path(__file__).parent
@@ -145,3 +147,19 @@ def compile_c(sources, out, *flags):
     words = [CC, *common, *flags, *map(str, sources), "-o", str(out), "-lm", "-lpthread", "-ldl"]
     subprocess.run(words, check=True, capture_output=True, text=True)
     return out
+
+
+SANITIZED = ("-g1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+
+
+def sanitized_kernel(shelf, sources, fmi):
+    """Library of the sources of a version of FMI that ends itself where it errs; compiled once."""
+    files = sorted(sources.glob("*.c"))
+
+    def make(folder):
+        compile_c(files, folder / "kernel.so", "-fPIC", "-shared", f"-I{sources}", *SANITIZED)
+
+    try:
+        return shelf.folder(f"sanitized kernel {fmi}", make) / "kernel.so"
+    except subprocess.CalledProcessError as error:
+        pytest.skip(f"the compiler has no sanitizers: {error.stderr[:200]}")

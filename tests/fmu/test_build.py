@@ -163,6 +163,7 @@ def test_simulates_in_fmpy(toy_fmu):
     assert result["y"][-1] == pytest.approx(-8.0 * math.expm1(-1.0 / 0.2), rel=1e-14)
 
 
+@pytest.mark.slow
 def test_builds_of_one_fmu_live_side_by_side(toy_module, tmp_path, open_fmu):
     paths = [build("toy", tmp_path / f"{g}.fmu", start={"gain": g}) for g in (1.0, 2.0, 3.0)]
     assert len({fmpy.read_model_description(str(p)).guid for p in paths}) == 3
@@ -197,6 +198,7 @@ def test_changed_code_is_refused_when_instantiated(toy_fmu, tmp_path, open_fmu):
         open_fmu(toy_fmu, folder)
 
 
+@pytest.mark.slow
 def test_many_instances_one_after_another(toy_fmu, open_fmu):
     """Without a function of its own pythonfmu would free the script's namespace here."""
     for _ in range(20):

@@ -102,6 +102,7 @@ def test_an_rtol_out_of_range_is_refused(mass, value):
         build("stiction-mass", "x.fmu", start={"rtol": value})
 
 
+@pytest.mark.slow
 def test_the_tolerance_it_suggests_is_its_own(shelf):
     for start, expected in (({}, 1e-8), ({"rtol": 1e-6}, 1e-6)):
         path = shelf(build, "stiction-mass", start=start)

@@ -109,6 +109,7 @@ def test_data_are_kept_until_their_code_changes(page, tmp_path):
     assert "Draft sizes" in (out / "squares.md").read_text()
 
 
+@pytest.mark.slow
 def test_a_file_of_data_that_is_cut_short_is_made_again(page, tmp_path):
     out = tmp_path / "out"
     gallery(page, out)
@@ -212,8 +213,9 @@ def test_the_documentation_shows_every_page():
             assert 0 < (shown / picture).stat().st_size < 150_000
 
 
-LONG = ("chapter_2", "chapter_3", "measured")  # the quick pages of the last are in tests/references
+LONG = ("chapter_2", "chapter_3", "future_work", "measured")  # the last: see tests/references
 PAGES = ["2.1b", "2.3", "2.8", "layered-equations", "3.7", "3.11", "3.15", "Table 4.1"]  # seconds
+PAGES += ["exact-menisci", "other-profiles", "sliding-angles", "stick-slip"]
 
 
 @pytest.mark.parametrize(

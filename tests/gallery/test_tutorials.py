@@ -8,10 +8,12 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import pytest
+from selection import quick
 
 ROOT = Path(__file__).parents[2]
 SHOWN = ROOT / "docs" / "tutorials"
 FAST = ("humid-sphere", "own-effect")
+LONG = ("fit-a-curve",)  # ten seconds
 MAKE = "run python docs/scripts/tutorials"
 NUMBER = re.compile(r"[-+]?\d+\.?\d*(?:e[-+]?\d+)?")
 PRINTED = re.compile(r"^```text\n(.*?)^```", re.MULTILINE | re.DOTALL)
@@ -55,7 +57,12 @@ def assert_same_page(found, shown):
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=[] if n in FAST else [pytest.mark.slow]) for n in NAMES]
+    "name",
+    quick(
+        NAMES,
+        *map(NAMES.index, FAST),
+        long=[i for i, name in enumerate(NAMES) if name not in LONG],
+    ),
 )
 def test_the_page_shows_what_the_tutorial_prints(name, monkeypatch):
     if "fmu" in name:

@@ -138,26 +138,26 @@ def test_a_smaller_tolerance_gives_a_smaller_error(release_cases, release_scene)
 
 @pytest.fixture(scope="module")
 def firing():
-    """Two cycles at three temperatures: a cavity of vapour, an oil that sustains its strength."""
-    found = {}
-    for temperature in (-20, 20, 80):
-        for sustained in (False, True):
-            scene, valve = injector(temperature, sustained=sustained)
-            found[temperature, sustained] = simulate(plan(scene), valve, 21e-3, rtol=1e-7)
-    return found
+    """Two cycles at a temperature: a cavity of vapour, or an oil that sustains its strength."""
+
+    @functools.cache
+    def solved(temperature, sustained):
+        scene, valve = injector(temperature, sustained=sustained)
+        return simulate(plan(scene), valve, 21e-3, rtol=1e-7)
+
+    return solved
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("temperature", "vapour", "bears"),
-    [(-20, 0.34223, 0.55449), (20, 0.34219, 0.54110), (80, 0.34200, 0.50889)],
+    quick([(-20, 0.34223, 0.55449), (20, 0.34219, 0.54110), (80, 0.34200, 0.50889)], long=[0, 2]),
 )
 def test_what_the_cavity_holds_decides_when_the_spool_is_released(
     firing, temperature, vapour, bears
 ):
     area = math.pi * 3.175e-3**2
     for sustained, milliseconds in ((False, vapour), (True, bears)):
-        result = firing[temperature, sustained]
+        result = firing(temperature, sustained)
         first, second = result.cycles
         assert first.release_time * 1e3 == pytest.approx(milliseconds, rel=2e-4)
         # The closing spool stops short of the end cap, and has less film to leave then.
@@ -175,8 +175,8 @@ def test_what_the_cavity_holds_decides_when_the_spool_is_released(
 @pytest.mark.slow
 def test_a_warm_film_is_full_again_within_a_cycle_and_a_cold_one_is_not(firing):
     for sustained in (False, True):
-        assert firing[80, sustained]["void_volume"][-1] == 0.0
-        assert firing[-20, sustained]["void_volume"][-1] > 0.0
+        assert firing(80, sustained)["void_volume"][-1] == 0.0
+        assert firing(-20, sustained)["void_volume"][-1] > 0.0
 
 
 def test_an_oil_that_never_cavitates_does_not_let_the_valve_fire():
@@ -189,7 +189,7 @@ def test_an_oil_that_never_cavitates_does_not_let_the_valve_fire():
 @pytest.mark.slow
 def test_it_is_the_injector_of_the_source(firing):
     """About 40 N open it in about 0.5 ms, at about 40 mm/s in the mean."""
-    result = firing[80, True]
+    result = firing(80, True)
     before = result["time"] <= 1e-3 + result.cycles[0].release_time
     net = (result["magnet_force"] - result["spring_force"])[before]
     assert 35.0 < net[np.searchsorted(result["time"][before], 1.25e-3)] < 45.0
@@ -274,6 +274,7 @@ def test_opening_closing_and_opening_again_agree_with_the_motion_of_contactkit(d
     assert {"film cavitates", "liquid returns"} < {event.what for event in result.events}
 
 
+@pytest.mark.slow
 def test_curves_can_be_asked_for_at_any_times():
     scene, valve = injector(20.0)
     times = np.linspace(0.0, 6e-3, 61)

@@ -81,6 +81,7 @@ def test_a_monolithic_simulation_ends_after_it_starts(film_scene, end):
         simulate(made, lambda time: 1.0, end)
 
 
+@pytest.mark.slow
 def test_a_solver_that_gives_up_names_a_cure(film_scene):
     made = plan(film_scene(ck.ViscousForce(), force=1.0, mass=1e-3))
     # No step is short enough for a pull that grows beyond all bounds.

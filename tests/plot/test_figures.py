@@ -96,6 +96,7 @@ def test_every_figure_that_an_effect_declares_is_a_method():
         assert all(callable(getattr(ContactFigures, name)) for name in names)
 
 
+@pytest.mark.slow
 def test_what_a_contact_can_draw_is_drawn_with_units_by_size(pressed, tmp_path):
     names = [name for name in pressed.plot.available if name != "map"]
     more = {"surface_3d", "explore"}
@@ -269,6 +270,7 @@ def test_units_are_saved_in_the_letters_of_print(tmp_path):
 def test_matplotlib_comes_with_the_first_figure_alone():
     code = (
         "import sys, numpy as np, contactkit as ck\n"
+        "sys.modules['numba'] = None  # whose loops take seconds to load\n"
         "steel = ck.Material(young_modulus=210e9, poisson_ratio=0.3)\n"
         "r = ck.press(1e-9 * np.eye(8), 1e-7, steel, mean_pressure=1e6)\n"
         "assert 'matplotlib' not in sys.modules\n"

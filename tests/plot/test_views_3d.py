@@ -137,6 +137,7 @@ def _without_windows():
     plt.switch_backend(before)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("_without_windows")
 def test_sections_follow_the_mouse_and_a_click_holds_them(stressed):
     from matplotlib.backend_bases import MouseEvent
@@ -163,6 +164,7 @@ def test_sections_follow_the_mouse_and_a_click_holds_them(stressed):
     assert (look.row, look.column) == (8, 2)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("_without_windows")
 def test_a_slider_goes_through_the_planes_of_stress(stressed):
     look = stressed.plot.explore(measure="von_mises")

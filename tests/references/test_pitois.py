@@ -82,6 +82,7 @@ def test_far_off_the_weight_of_the_liquid_counts():
     assert WEIGHT / MEASURED[-1] == pytest.approx(0.245, abs=0.005)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 def test_with_film_weight_and_column_half_the_error_is_left():
     """At 10 um/s: 0.29 mm3 stay on the spheres; the lower one is pulled by half the weight less."""

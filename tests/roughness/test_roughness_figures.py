@@ -29,6 +29,7 @@ def lines(ax):
     return {line.get_label(): np.asarray(line.get_ydata(), dtype=float) for line in ax.lines}
 
 
+@pytest.mark.slow
 def test_the_area_stands_beside_every_theory(tmp_path):
     results = [ck.press(heights(), 1e-9, SOLID, p) for p in (1e6, 2e7)]
     found = area_over_load(results)

@@ -276,6 +276,7 @@ def test_the_spectrum_is_that_of_white_noise(periodic):
     np.testing.assert_allclose(found.density[well], 2e-36, rtol=0.35)
 
 
+@pytest.mark.slow
 def test_the_correlation_length_is_the_one_asked_for():
     pixel = (SCAN / 512, SCAN / 512)
     beta = (0.5e-6, 0.8e-6)

@@ -76,13 +76,29 @@ def with_needed_fields(kind):
     return kind(**dict.fromkeys(needed, 1.0))
 
 
+def ours():
+    """Modules of contactkit that are loaded."""
+    return [m for name, m in sys.modules.items() if name.startswith("contactkit") and m]
+
+
+@functools.cache
+def places(_loaded):
+    """Module and attribute of each place that a kernel has been imported to, by its name."""
+    names, found = {id(value): name for name, value in kernels().items()}, {}
+    for module in ours():
+        for attribute, value in vars(module).items():
+            if id(value) in names:
+                found.setdefault(names[id(value)], []).append((module, attribute))
+    return found
+
+
 def poison(monkeypatch, names):
     """Replace kernels by ones that raise, wherever they have been imported to."""
-    poisoned = {id(kernels()[name]): _raising(name) for name in names}
-    for module in [m for name, m in sys.modules.items() if name.startswith("contactkit") and m]:
-        for attribute, value in list(vars(module).items()):
-            if id(value) in poisoned:
-                monkeypatch.setattr(module, attribute, poisoned[id(value)])
+    found = places(frozenset(map(id, ours())))
+    for name in names:
+        for module, attribute in found.get(name, ()):
+            if getattr(module, attribute) is kernels()[name]:
+                monkeypatch.setattr(module, attribute, _raising(name))
 
 
 def poison_all_but(monkeypatch, patterns):
@@ -90,6 +106,7 @@ def poison_all_but(monkeypatch, patterns):
     poison(monkeypatch, [name for name in kernels() if not matches(name, patterns)])
 
 
+@functools.cache
 def _raising(name):
     @functools.wraps(kernels()[name])
     def raises(*_args, **_kwargs):

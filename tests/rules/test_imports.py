@@ -11,6 +11,9 @@ from sources import tree
 
 from contactkit._lazy import ABOVE
 
+# Rules of the house, as lint is: 3 s of `make test`.
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 FOLDERS = {
     "contactkit": "contactkit",
@@ -40,6 +43,7 @@ FLOORS = [
     ["plot"],
     ["models"],
     ["fmu"],
+    ["live_page"],
     ["benchmarks"],
     ["models report"],
     ["app"],

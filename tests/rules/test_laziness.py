@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+from selection import quick
 
 HEAVY = {"numpy", "scipy", "matplotlib", "fmpy", "pythonfmu", "numba", "cattrs", "tomli_w", "tqdm"}
 MOST_MODULES = 70  # of contactkit itself; attrs and the standard library add some 45
@@ -151,7 +152,7 @@ LEFT_OUT = {
 }
 
 
-@pytest.mark.parametrize("name", UNUSED)
+@pytest.mark.parametrize("name", quick(UNUSED, 0))
 def test_a_scene_brings_the_rooms_it_calls_for_and_no_other(name, tmp_path):
     text, rooms = UNUSED[name]
     (tmp_path / "scene.toml").write_text(text, encoding="utf-8")

@@ -14,6 +14,9 @@ import pytest
 
 from contactkit.kinds import KINDS
 
+# Rules of the house, as lint is: 2 s of `make test`.
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 DOTTED = re.compile(r"(?<![\w./@-])contactkit(?:\.[A-Za-z_]\w*)+(?!\.?\w)")
 PATH = re.compile(r"(?<![\w./<>:*{}-])(?:[a-z_0-9]+/)+[a-z_0-9]+\.(?:py|c|h|toml)\b")

@@ -18,7 +18,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 spec = importlib.util.spec_from_file_location("setup_of_contactkit", ROOT / "setup.py")
 setup = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(setup)
-DATA = (".toml", ".json", ".c", ".h", ".png", ".svg", ".typed")
+DATA = (".toml", ".json", ".c", ".h", ".html", ".css", ".js", ".png", ".svg", ".typed")
 
 
 def folder_of(package):

@@ -14,6 +14,7 @@ from pathlib import Path
 import attrs
 import numpy as np
 import pytest
+from selection import quick
 
 import contactkit as ck
 from contactkit.analyses.deforming.release import ReleaseCurve
@@ -195,7 +196,7 @@ MADE = {
     ),
     "measured curve": readings,
     "fit": fitted,
-    "comparison of fits": lambda: ck.compare_fits({"a": fitted(), "b": fitted()}),
+    "comparison of fits": lambda: ck.compare_fits(dict.fromkeys("ab", made("fit"))),
     "load curve": lambda: ck.load_curve(ck.plan(rough(), GRID), pressures=[1e5, 2e5]),
     "load-displacement curve": lambda: ck.load_displacement(rough(), points=4, accuracy=GRID),
     "humidity curve": lambda: ck.humidity_curve(sphere(ck.MeniscusForce()), [0.2, 0.5]),
@@ -244,8 +245,12 @@ def numbers(value):
     return repr(value)
 
 
+LONG = {"comparison of fits", "deforming", "fit", "pull-off over speed"}
+QUICK = [i for i, name in enumerate(MADE) if name not in LONG]
+
+
 @pytest.mark.parametrize("copied", [through_pickle, copy.deepcopy])
-@pytest.mark.parametrize("name", MADE)
+@pytest.mark.parametrize("name", quick(MADE, *QUICK))
 def test_what_is_pickled_or_copied_holds_the_same_numbers(name, copied):
     value = made(name)
     again = copied(value)

@@ -272,7 +272,7 @@ def transforms(monkeypatch, effects, edges="periodic"):
     return len(made), result.work.n_ffts
 
 
-@pytest.mark.parametrize("edges", ["periodic", "isolated"], ids=label)
+@pytest.mark.parametrize("edges", quick(["periodic", "isolated"], 0), ids=label)
 def test_what_a_scene_does_not_call_for_is_not_transformed(monkeypatch, edges):
     friction, none = ck.FrictionTraction(coefficient=0.2), ck.FrictionTraction(coefficient=0.0)
     alone = transforms(monkeypatch, (), edges)

@@ -113,20 +113,23 @@ ROUGH = {
     for profile, kernels in (("thin-film", THIN), ("exact", CONDENSED))
 }
 
-# Called for beside a meniscus whose film does not fill the faces: tests/separation/wetting.
+# Dynamic wetting takes a film that does not fill the faces, and mostly a meniscus at a speed.
+WET = {"capillary.wetting.weight.*", "lubrication.dimensionless.bond_number", *EXACT_SPHERE}
+COX = {"capillary.wetting.cox_voinov.*", *EXACT_SPHERE}
 WETTING = {
-    ck.LiquidWeight,
-    ck.LandauLevichFilm,
-    ck.CoxVoinovAngle,
-    ck.TroutonForce,
-    ck.DynamicRupture,
+    ck.LiquidWeight(): {"sphere": WET},
+    ck.LiquidWeight(body="lower"): {"sphere": WET},
+    ck.CoxVoinovAngle(): {"sphere": COX},
+    ck.LandauLevichFilm(): {"sphere": {"capillary.wetting.landau_levich.*", *COX}},
+    ck.TroutonForce(): {"sphere": set()},
+    ck.DynamicRupture(): {"sphere": EXACT_SPHERE},
 }
-TABLE = OWNED | SOLIDS | ROUGH
+TABLE = OWNED | SOLIDS | ROUGH | WETTING
 # A force without a line above may call what its module imports. It is tried alone where it fits.
 OTHERS = {
     with_needed_fields(kind): dict.fromkeys(BODIES, imported_by(kind))
     for kind in SEPARATION_EFFECTS
-    if issubclass(kind, SeparationForce) and kind not in {*map(type, TABLE), *WETTING}
+    if issubclass(kind, SeparationForce) and kind not in {*map(type, TABLE)}
 }
 
 # What is not an effect's: how far the film reaches, the motion, and the ranges of validity.
@@ -166,7 +169,7 @@ def scene_of(effects, body, imposed):
 
 
 def run(effects, body, imposed):
-    return separation.simulate(ck.plan(scene_of(effects, body, imposed)))
+    return separation.simulate(ck.plan(scene_of(effects, body, imposed), ck.Accuracy.draft))
 
 
 def allowed(effects, body, imposed):
@@ -202,6 +205,15 @@ def film_cases(body):
     return alone + [(effects, body, c["imposed"]) for c, effects in found if c in wanted]
 
 
+def beside(wetting):
+    """What an effect of dynamic wetting stands beside."""
+    if isinstance(wetting, ck.TroutonForce):  # of the film alone
+        return (ck.ViscousForce(),)
+    # A line that recedes leaves a film where its angle is zero, or falls to that.
+    angle = (ck.CoxVoinovAngle(),) if isinstance(wetting, ck.LandauLevichFilm) else ()
+    return (ck.MeniscusForce(), ck.ViscousForce(), *angle)
+
+
 def cases():
     for body in BODIES:
         yield from film_cases(body)
@@ -211,6 +223,8 @@ def cases():
             yield (*case["film"], case["solid"]), body, case["imposed"]
     for case in product_of({"rough": ROUGH, "imposed": IMPOSED}):
         yield (case["rough"],), "flats", case["imposed"]
+    for wetting in WETTING:
+        yield (*beside(wetting), wetting), "sphere", "speed"
     for other, body in itertools.product(OTHERS, BODIES):
         if not other.lacks(scene_of((other,), body, "speed")):
             yield (other,), body, "speed"
@@ -339,6 +353,15 @@ HEARTS = [
             strict=True,
         )
     ),
+    *(
+        ((*beside(wetting), wetting), "sphere", "speed", heart)
+        for wetting, heart in (
+            (ck.LiquidWeight(), "capillary.wetting.weight.upper_share"),
+            (ck.LandauLevichFilm(), "capillary.wetting.landau_levich.film_fraction"),
+            (ck.CoxVoinovAngle(), "capillary.wetting.cox_voinov.dynamic_angle"),
+            (ck.DynamicRupture(), "capillary.exact.stability.stability_limit"),
+        )
+    ),
 ]
 
 
@@ -357,11 +380,7 @@ def test_every_effect_and_every_choice_is_poisoned():
 
     Effects that are coupled with the film have another engine, which no scene above asks for.
     """
-    laws = {
-        kind
-        for kind in SEPARATION_EFFECTS
-        if not issubclass(kind, CoupledEffect) and kind not in WETTING
-    }
+    laws = {kind for kind in SEPARATION_EFFECTS if not issubclass(kind, CoupledEffect)}
     assert {type(effect) for effect in TABLE | OTHERS} == laws
     assert {effect for case in CASES for effect in case[0]} == {*TABLE, *OTHERS}
     solids = [effect for effect in SOLIDS if isinstance(effect, ck.AdhesiveContact)]
@@ -385,6 +404,6 @@ def test_without_a_line_an_effect_owns_what_its_module_imports():
 
 def test_the_table_names_kernels_that_exist():
     patterns = set().union(VALIDITY_OF_BOTH, *MOTION.values(), *VALIDITY.values(), *EXTENT.values())
-    for bodies in (*OWNED.values(), *SOLIDS.values(), *ROUGH.values()):
+    for bodies in TABLE.values():
         patterns |= set().union(*bodies.values())
     assert unknown(patterns) == []

@@ -143,19 +143,34 @@ def texts(path):
         yield 1, source
 
 
+COMPILED = [(re.compile(pattern, re.IGNORECASE), term) for pattern, term in TERMS.items()]
+ANY = re.compile("|".join(f"(?:{pattern})" for pattern in TERMS), re.IGNORECASE)
+
+
+@functools.cache
+def matches(text):
+    """Former terms in a text: place, phrase, what is around, term. A name is in many files."""
+    joined = re.sub(r"\s*\n\s*(?:# )?", " ", text)
+    if not ANY.search(joined):
+        return []
+    return [
+        (
+            text.find(match[0].split()[0]),
+            match[0],
+            joined[max(0, match.start() - 60) : match.end() + 60],
+            term,
+        )
+        for pattern, term in COMPILED
+        for match in pattern.finditer(joined)
+    ]
+
+
 def found_in(path):
     """Former terms in a file: line, phrase, the term to use."""
     for first, text in texts(path):
-        joined = re.sub(r"\s*\n\s*(?:# )?", " ", text)
-        for pattern, term in COMPILED:
-            for match in pattern.finditer(joined):
-                around = joined[max(0, match.start() - 60) : match.end() + 60]
-                if not is_deliberate(path, around):
-                    line = first + text[: text.find(match[0].split()[0])].count("\n")
-                    yield line, match[0], term
-
-
-COMPILED = [(re.compile(pattern, re.IGNORECASE), term) for pattern, term in TERMS.items()]
+        for place, phrase, around, term in matches(text):
+            if not is_deliberate(path, around):
+                yield first + text[:place].count("\n"), phrase, term
 
 
 def is_deliberate(path, around):

@@ -29,6 +29,19 @@ SLIDING = ck.SlidingScene(
     effects=(ck.CouetteForce(),),
 )
 PULL = ck.ImposedForce(force=1.0, mass=0.01, initial_gap=4e-6, final_gap=1e-5)
+SLOW = ck.ImposedTime(time=1.0, initial_gap=4e-6, final_gap=1e-5)
+TRUNCATED, REMEMBERED = (
+    (ck.ViscousForce(), ck.TensionLimit(strength=1e4, cavity=cavity))
+    for cavity in ("truncated", "mass-conserving")
+)
+TILTED = evolve(
+    FILM,
+    interface=ck.Interface(
+        lower=FACE,
+        upper=ck.Flat(planform=ck.Disc(radius=1e-3), tilt=(1e-3, 0.0)),
+        meniscus=ck.Meniscus(liquid=OIL.liquid),
+    ),
+)
 
 
 @pytest.mark.parametrize(
@@ -41,12 +54,46 @@ PULL = ck.ImposedForce(force=1.0, mass=0.01, initial_gap=4e-6, final_gap=1e-5)
         (FILM, {"rtol": 1e-8}),
         (FILM, {"threads": 1}),
         (SLIDING, {"film_rtol": 1e-3}),
+        (FILM, {"time_rtol": 1e-8}),  # of a motion, where the speed is imposed
+        (FILM, {"max_steps": 100_000}),
+        (evolve(FILM, effects=(ck.MeniscusForce(),)), {"film_rtol": 1e-3}),  # of no film
+        (evolve(FILM, effects=TRUNCATED), {"time_rtol": 1e-8}),
+        (evolve(FILM, loading=PULL), {"points": 200}),
+        (evolve(FILM, loading=SLOW), {"max_steps": 100_000}),
         (SLIDING, {"level": "reference", "time_rtol": 1e-11}),
     ],
 )
 def test_a_setting_that_is_not_read_is_refused_whatever_its_value(scene, given):
     with pytest.raises(ck.PlanError, match=r"Accuracy\.\w+ = .* is not read by .*: leave it out"):
         ck.plan(scene, ck.Accuracy(**given))
+
+
+@pytest.mark.parametrize(
+    ("scene", "given"),
+    [
+        (FILM, {"points": 9, "curve_rtol": 1e-2}),
+        (evolve(FILM, loading=SLOW), {"points": 9, "curve_rtol": 1e-2}),
+        (evolve(FILM, loading=PULL), {"time_rtol": 1e-6, "curve_rtol": 1e-2, "max_steps": 99}),
+        (evolve(FILM, effects=(ck.MeniscusForce(),)), {"time_rtol": 1e-4}),  # of its curve
+        (evolve(FILM, effects=REMEMBERED), {"time_rtol": 1e-4}),
+        (TILTED, {"film_rtol": 1e-2}),
+        (FILM, {"film_rtol": 1e-2}),  # which a closed form meets by itself
+        (SLIDING, {"points": 9, "curve_rtol": 1e-2}),
+    ],
+)
+def test_a_setting_that_something_of_the_scene_reads_is_taken(scene, given):
+    accuracy = ck.plan(scene, ck.Accuracy(**given)).accuracy
+    assert {name: getattr(accuracy, name) for name in given} == given
+
+
+def test_a_coupled_effect_reads_in_place_of_the_loading():
+    scene = evolve(FILM, effects=(*FILM.effects, ck.ElasticBodies()))
+    assert scene.reads == {"film_rtol", "grid"}
+
+
+def test_what_is_no_effect_is_refused_as_such_beside_a_setting():
+    with pytest.raises(ck.PlanError, match="it is a class: write ViscousForce"):
+        ck.plan(evolve(FILM, effects=(ck.ViscousForce,)), ck.Accuracy(points=9))
 
 
 @pytest.mark.parametrize("level", ["draft", "standard", "reference"])

@@ -253,6 +253,7 @@ def test_a_film_that_is_cavitated_at_the_start_has_its_cavity_there():
     assert shown.void == 0.0
 
 
+@pytest.mark.slow
 def test_a_face_that_closes_meets_no_full_film_above_the_gap_of_rupture():
     plan = moving(rest_gap=5e-6, initial_gap=5e-6, final_gap=30e-6)
     open_ = advance(plan, start(plan), Pull(40.0), 2.9e-4)
@@ -348,6 +349,7 @@ def test_an_imposed_speed_shows_its_cavity_and_only_a_film_that_cavitates_has_on
             ck.simulate(ck.plan(other))["cavity_radius"]
 
 
+@pytest.mark.slow
 def test_a_vibration_pushes_the_faces_apart_on_the_mean():
     """Cavitated half of the cycle, full the other: rectified, and from cycle to cycle the same."""
     shaken = ck.Vibration(amplitude=2e-6, frequency=1e3)

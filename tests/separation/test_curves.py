@@ -93,7 +93,7 @@ def departures(found, exact, along="time", n=1000):
 
 
 LONG = {"stiffer", "massless", "cavity that reforms", "cut-off pressure", "shear", "closes first"}
-LONG |= {"inertial", "ramp from rest", "ball"}
+LONG |= {"inertial", "ramp from rest", "ball", "film that breaks", "cavity"}
 
 
 @pytest.mark.parametrize(
@@ -251,10 +251,12 @@ def vibrated(scene, amplitude, phase=0.3, **loading):
     ("amplitude", "frequency", "is_cut"),
     quick(
         list(itertools.product([1e-9, 1e-6, 4.8e-6], [70.0, 300.0, 5e4], [False, True])),
-        0,  # nanometres at 70 Hz
         9,  # a micrometre at 300 Hz, cut
-        14,  # nearly closed at 300 Hz
-        17,  # and at 50 kHz, cut
+        long=[
+            0,  # nanometres at 70 Hz
+            14,  # nearly closed at 300 Hz
+            17,  # and at 50 kHz, cut
+        ],
     ),
 )
 def test_lines_over_cycles_are_right(amplitude, frequency, is_cut):
@@ -326,6 +328,7 @@ def test_numbers_of_a_vibration_compute_no_point_between(monkeypatch):
         result.time  # noqa: B018
 
 
+@pytest.mark.slow
 def test_the_shape_of_a_bridge_is_right_next_to_where_it_breaks():
     """Of a small drop under a sphere lines between other points missed the neck by 3 %."""
     from contactkit.capillary import bridge

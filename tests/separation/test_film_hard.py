@@ -93,6 +93,7 @@ def test_a_limited_impulse_is_as_exact_for_a_small_film_as_for_a_large_one(
     assert impulse(1e-4) == approx(1e-8 * impulse(1.0), 1e-8)
 
 
+@pytest.mark.slow
 def test_a_limited_impulse_is_the_integral_of_its_curve(film_scene):
     film = {"volume": filled(1e-6)}
     scene = film_scene(

@@ -6,6 +6,7 @@ import math
 import warnings
 
 import attrs
+import loadings
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
@@ -38,7 +39,7 @@ def judged(scene):
     """Numbers of a scene by name, and the names that it warns of."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        result = ck.simulate(ck.plan(scene, ck.Accuracy(points=20)))
+        result = ck.simulate(ck.plan(scene, loadings.with_points(scene, 20)))
     texts = [str(w.message) for w in caught if w.category is ck.ValidityWarning]
     found = {number.name: number for number in result.validity}
     return found, {name for name in found if any(text.startswith(name) for text in texts)}

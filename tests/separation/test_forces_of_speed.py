@@ -307,6 +307,7 @@ def test_what_is_not_linear_has_no_native_form_and_a_cure(brake):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("kernels_compiled_once")
 @pytest.mark.parametrize("cavitates", [False, True])
 @pytest.mark.parametrize("rest", [0.0, 0.2])
 def test_a_native_fmu_moves_as_the_plan(rest, cavitates, tmp_path):

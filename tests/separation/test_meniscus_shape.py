@@ -3,6 +3,7 @@
 import math
 import pickle
 
+import loadings
 import numpy as np
 import pytest
 from selection import quick
@@ -35,7 +36,7 @@ SPHERE = FLATS | {"upper": ck.Sphere(radius=1e-6)}
 def run(film_scene, effect, bodies, amount, count=1, *others, **loading):
     film = {"contact_angle_lower": LOWER, "contact_angle_upper": UPPER, "count": count} | amount
     scene = film_scene(effect, *others, liquid=WATER, film=film, **(bodies | loading))
-    return ck.simulate(ck.plan(scene, ck.Accuracy(points=20)))
+    return ck.simulate(ck.plan(scene, loadings.with_points(scene, 20)))
 
 
 @pytest.mark.parametrize("count", [1, 9])

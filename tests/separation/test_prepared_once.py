@@ -86,6 +86,7 @@ def test_no_force_along_a_speed_is_evaluated_twice_at_a_gap(counted):
     assert len(rows) == result.work.n_evaluations
 
 
+@pytest.mark.slow
 def test_a_map_is_read_once_in_a_plan_and_goes_with_its_scene(counted, tmp_path):
     reads = counted(height_maps, "read_height_map")
     heights = 1e-7 * np.sin(np.linspace(0.0, 6.0, 32))[:, None] * np.ones((32, 32))

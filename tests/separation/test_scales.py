@@ -2,6 +2,7 @@
 
 import math
 
+import loadings
 import numpy as np
 import pytest
 
@@ -18,7 +19,7 @@ COSINES = math.cos(60 * DEG) + math.cos(20 * DEG)
 
 def separated(film_scene, *effects, film=None, **given):
     scene = film_scene(*effects, film=WETTED | {"volume": 1e-12} | (film or {}), **given)
-    return ck.simulate(ck.plan(scene, ck.Accuracy(points=20)))
+    return ck.simulate(ck.plan(scene, loadings.with_points(scene, 20)))
 
 
 def test_a_film_between_flats_is_divided_by_its_capillary_force_and_viscous_impulse(film_scene):

@@ -14,7 +14,6 @@ import loadings
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from selection import quick
 
 import contactkit as ck
 from contactkit.capillary.exact.bridge import bridge, bridge_at_pressure
@@ -121,12 +120,13 @@ def same(again, result):
         np.testing.assert_array_equal(again.columns[name], column)
 
 
-@pytest.mark.parametrize("motion", quick(list(MOTIONS), 2))
+@pytest.mark.slow
+@pytest.mark.parametrize("motion", MOTIONS)
 def test_every_effect_alone_and_in_pairs(motion, tmp_path):
     refusals, done = [], 0
     for i, made in enumerate(combinations(motion)):
         try:
-            plan = ck.plan(made, FEW)
+            plan = ck.plan(made, loadings.with_points(made, 12))
         except (ck.PlanError, ck.InfeasibleError) as error:
             refusals.append((str(error), made.effects))
             continue
@@ -185,7 +185,7 @@ def test_validity_is_judged_while_the_film_is_there():
     effects = (ck.ViscousForce(), ck.Rupture(gap=6e-9))
     made = scene(effects, FACE, "volume", "force")
     loading = loadings.imposed(initial_gap=5e-9, final_gap=1e-3, **pull)
-    result = ck.simulate(ck.plan(attrs.evolve(made, loading=loading), FEW))
+    result = ck.simulate(ck.plan(attrs.evolve(made, loading=loading)))
     whole = result["film_status"] != ck.FilmStatus.BROKEN
     assert result.gap[~whole].max() == pytest.approx(1e-3)
     assert result.speed[~whole].max() > 10.0 * result.speed[whole].max()
@@ -238,7 +238,7 @@ def test_a_humid_sphere_with_its_film(humidity, motion):
     made = ck.SeparationScene(
         interface=ck.Interface(upper=BALL, meniscus=moist), loading=loading, effects=effects
     )
-    result = ck.simulate(ck.plan(made, FEW))
+    result = ck.simulate(ck.plan(made, loadings.with_points(made, 12)))
     over = made.liquid_pressure / 0.072
     gaps = np.array([0.3e-9, 0.5e-9])
     exact = 0.072 * bridge_at_pressure(gaps, over, 0.0, 0.0, 0.0, 1e5).force
@@ -322,7 +322,7 @@ def test_a_drop_that_repels_a_sphere_warns(angle):
         effects=(EFFECTS[0],),
     )
     with pytest.warns(ck.ValidityWarning, match="laterally unstable"):
-        result = ck.simulate(ck.plan(made, FEW))
+        result = ck.simulate(ck.plan(made, loadings.with_points(made, 12)))
     assert result["meniscus_force"][0] < 0.0
     flat = attrs.evolve(made, interface=ck.Interface(meniscus=film))
     names = [number.name for number in ck.simulate(ck.plan(flat, FEW)).validity]

@@ -194,6 +194,7 @@ def released(film, *effects, **loading):
     return result.state
 
 
+@pytest.mark.slow
 @given(length=decades(-1.0, 1.0), force=decades(-2.0, 2.0), time=decades(-2.0, 2.0))
 def test_a_motion_scales_with_its_lengths_forces_and_times(length, force, time):
     """Choose units of length, force and time: every quantity follows from its dimensions."""
@@ -233,6 +234,7 @@ def test_a_motion_scales_with_its_lengths_forces_and_times(length, force, time):
     assert two.peak_force == approx(force * one.peak_force, 1e-6)
 
 
+@pytest.mark.slow
 @given(
     parts=st.lists(st.floats(0.01, 1.0), min_size=2, max_size=12),
     gap=decades(-8.0, -5.0),

@@ -107,6 +107,7 @@ def test_a_convex_force_gains_a_quarter_of_its_second_derivative():
     assert gain > 0.0
 
 
+@pytest.mark.slow
 def test_cycles_left_out_are_bridged():
     """250 cycles, of which all, 80 or 30 are computed."""
     vibration = shaken(2e-6, 500.0, 1.0)
@@ -172,6 +173,7 @@ def test_adhesive_solids_are_not_shaken():
         ck.plan(near)
 
 
+@pytest.mark.slow
 def test_files_and_the_command_line(tmp_path, capsys):
     made = attrs.evolve(scene(VISCOUS, TENSION, vibration=shaken(1e-6)), name="a shaken plate")
     path = ck.save_scene(made, tmp_path / "scene.toml")

@@ -6,6 +6,8 @@ import pytest
 
 import contactkit as ck
 from contactkit.contact.functionals import FUNCTIONALS, functional
+from contactkit.separation.motion.sensitivity import motion_slopes
+from contactkit.separation.motion_curves import pull_law
 from contactkit.studies.paths import changed, value_at
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
@@ -61,14 +63,14 @@ def agree(found, wanted, size, rel=1e-6):
     assert abs(found - wanted) <= rel * max(abs(wanted), 1e-3 * abs(size))
 
 
-def check_contact(scene, of, paths, accuracy=EXACT, rel=1e-6):
+def check_contact(scene, of, paths, accuracy=EXACT, rel=1e-6, step=1e-5):
     result = ck.solve(ck.plan(scene, accuracy))
     assert result.status == "converged"
     gradient = result.gradient(of, paths)
     assert gradient.value == functional(of).value(result)
     for path in paths:
         value = value_at(scene, accuracy, path)
-        wanted = slope(lambda x, p=path: of_contact(scene, accuracy, of, {p: x}), value)
+        wanted = slope(lambda x, p=path: of_contact(scene, accuracy, of, {p: x}), value, step)
         agree(gradient[path], wanted, gradient.value / value, rel)
     return result, gradient
 
@@ -121,6 +123,16 @@ def test_pixels_at_the_hardness_carry_it_whatever_else_changes():
         result, _ = check_contact(scene, of, paths)
     assert result.plastic_area > 0.0
     check_heights(scene, result, "mean_gap")
+
+
+def test_a_history_whose_loads_only_rise_has_the_slopes_of_its_last_contact():
+    history = ck.PlasticHistory(pressures=(1e6, 2e6), steps=2)
+    scene = pressed(ck.Pressing(pressure=3e6), ck.HardnessLimit(), history, solid=SOLID)
+    paths = ("interface.lower.solid.hardness", "loading.pressure")
+    result, _ = check_contact(scene, "approach", paths)
+    assert result.of(ck.PlasticHistory).plastic_work[-1] > 0.0
+    with pytest.raises(ck.NotSimulatedError, match="its energy is that of the shape"):
+        result.gradient("energy", "loading.pressure")
 
 
 def test_the_derivative_of_the_work_is_the_load():
@@ -199,6 +211,50 @@ def test_without_contact_nothing_depends_on_anything():
     assert not gradient["heights"].any()
 
 
+def attracted(law=None):
+    return ck.Adhesion(law=law or ck.ExponentialAttraction(work_of_adhesion=3e-2, range=6e-9))
+
+
+WORK, RANGE = "effects.adhesion.law.work_of_adhesion", "effects.adhesion.law.range"
+
+
+def check_attracted(loading, of, paths, law=None, rel=1e-6):
+    scene = pressed(loading, attracted(law), solid=SOLID, periodic=False)
+    result, gradient = check_contact(scene, of, paths, rel=rel, step=2e-4)
+    assert result.contact.any()
+    assert not result.contact.all()
+    assert not gradient.is_one_sided
+    return result, gradient
+
+
+def test_an_attraction_adds_its_tangent_on_the_pixels_apart():
+    paths = (WORK, RANGE, "loading.approach", "interface.lower.solid.young_modulus")
+    check_attracted(ck.Approach(approach=5e-9), "load", paths)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("of", ["approach", "mean_gap", "max_pressure", "elastic_energy"])
+def test_numbers_of_an_attracted_contact_under_a_load(of):
+    paths = (WORK, "loading.pressure", "interface.lower.solid.young_modulus")
+    result, _ = check_attracted(ck.Pressing(pressure=3e5), of, paths)
+    check_heights(result.plan.scene, result, of)
+
+
+@pytest.mark.slow
+def test_lennard_jones_attracts_with_a_tangent_too():
+    law = ck.LennardJonesAttraction(work_of_adhesion=3e-2, range=8e-9)
+    check_attracted(ck.Approach(approach=5e-9), "load", (WORK, RANGE), law)
+
+
+@pytest.mark.slow
+def test_an_attraction_beside_a_hardness():
+    effects = attracted(), ck.HardnessLimit()
+    scene = pressed(ck.Pressing(pressure=3e6), *effects, solid=SOLID, periodic=False)
+    paths = (WORK, "interface.lower.solid.hardness", "loading.pressure")
+    result, _ = check_contact(scene, "approach", paths, step=1e-4)
+    assert result.of(ck.HardnessLimit).area > 0.0
+
+
 FRICTION = (ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling())
 
 
@@ -207,10 +263,6 @@ FRICTION = (ck.FrictionTraction(coefficient=0.3), ck.FrictionCoupling())
     [
         (FRICTION, "FrictionCoupling: friction displaces"),
         ((ck.HardnessLimit(), ck.PlasticHistory(pressures=(4e6,))), "PlasticHistory: the shape"),
-        (
-            (ck.Adhesion(law=ck.ExponentialAttraction(work_of_adhesion=1e-3, range=1e-9)),),
-            "Adhesion: the tension",
-        ),
     ],
 )
 def test_what_has_no_gradient_is_refused_with_the_reason(effects, message):
@@ -300,14 +352,37 @@ def test_a_film_that_breaks_leaves_a_jump_of_the_slopes():
     check_motion(scene, "release_speed", ("effects.rupture.gap",), rel=1e-4)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("of", ["release_time", "peak_force"])
-def test_a_rising_pull_on_a_spring(of):
+def rising():
+    """A rising pull on a spring: the force has a maximum inside a step."""
     loading = ck.ImposedForce(**PULL, stiffness=2e3, rise_time=1e-4, initial_speed=0.0)
-    scene = pulled(loading, ck.ViscousForce(), ck.MeniscusForce())
-    paths = "loading.stiffness", "loading.rise_time"
-    # The highest force is read off a cubic through the stages, to 1e-4 of what else changes it.
-    check_motion(scene, of, paths, rel=1e-3 if of == "peak_force" else 1e-5)
+    return pulled(loading, ck.ViscousForce(), ck.MeniscusForce())
+
+
+@pytest.mark.slow
+def test_a_rising_pull_on_a_spring():
+    check_motion(rising(), "release_time", ("loading.stiffness", "loading.rise_time"), rel=1e-5)
+
+
+def highest(scene):
+    return motion_slopes(ck.plan(scene, FINE), (), pull_law).numbers["peak_force"]
+
+
+@pytest.mark.slow
+def test_the_highest_force_is_where_its_rate_vanishes():
+    """Against differences of the maximum itself; the curve reads it off a cubic, right to 1e-5."""
+    loading = {"force": 1.0, "mass": 1e-2, "initial_gap": 2e-5, "final_gap": 2e-4}
+    scene = pulled(ck.ImposedForce(**loading, rise_time=1e-3), ck.ViscousForce(), volume=3e-11)
+    paths = (VISCOSITY, "loading.mass", "loading.rise_time", "loading.initial_gap")
+    gradient = ck.simulate(ck.plan(scene, FINE)).gradient("peak_force", paths)
+    assert gradient.value == pytest.approx(highest(scene), rel=1e-5)
+    for path in paths:
+        value = value_at(scene, FINE, path)
+
+        def at(x, path=path):
+            return highest(changed(scene, FINE, {path: x}).scene)
+
+        wanted = (4.0 * slope(at, value, 1e-3) - slope(at, value, 2e-3)) / 3.0
+        assert gradient[path] == pytest.approx(wanted, rel=1e-7)
 
 
 def test_an_imposed_speed_has_closed_slopes():

@@ -189,6 +189,7 @@ def test_ranges_of_the_disk_hold_its_values():
     assert lean.effects != device.scene.effects
 
 
+@pytest.mark.slow
 def test_the_oil_decides_how_long_the_spool_sticks(injector):
     strength, cavity = (f"effects.tension-limit.{n}" for n in ("strength", "cavity_pressure"))
     chosen = {path: RANGES[path] for path in (strength, cavity, "temperature", "loading.mass")}
@@ -207,6 +208,7 @@ def test_a_film_that_sustains_its_strength_closes_late(injector):
     assert residual_gap(late) == pytest.approx(7.88e-6, rel=0.01)
 
 
+@pytest.mark.slow
 def test_a_valve_that_never_opened_has_no_closing(injector):
     weak = evolve(injector.valve.spring, preload=50.0)
     stuck = evolve(injector, valve=evolve(injector.valve, spring=weak))

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from selection import quick
 
 import contactkit as ck
 from contactkit.contact import chain, prepared
@@ -419,8 +420,9 @@ def whole(store, workers=1):
     return ck.study(contact(), MANY, ACCURACY, store=store, workers=workers, keep_maps=True)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("workers", "how"), [(1, signal.SIGINT), (2, signal.SIGKILL)])
+@pytest.mark.parametrize(
+    ("workers", "how"), quick([(1, signal.SIGINT), (2, signal.SIGKILL)], long=[1])
+)
 def test_an_interrupted_study_goes_on_where_it_stopped(tmp_path, workers, how):
     script, store = tmp_path / "slow.py", tmp_path / "store"
     script.write_text(SLOW, encoding="utf-8")

@@ -25,20 +25,20 @@ from .page import Check
 from .report import Made, index, write_page
 from .scripts import Script, digest, load, scripts
 
-__all__ = ["Outcome", "exit_status", "run_gallery", "run_page"]
+__all__ = ["PageOutcome", "exit_status", "run_gallery", "run_page"]
 
 _HEAD = "gallery_page"  # entry of the data that describes them
 
 
-def exit_status(outcomes: Sequence[Outcome]) -> int:
+def exit_status(outcomes: Sequence[PageOutcome]) -> int:
     """Exit status: 2 if a page could not be made or written, 1 if a check does not hold."""
     if any(one.error for one in outcomes):
         return 2
     return 1 if any(one.failed for one in outcomes) else 0
 
 
-class Outcome(NamedTuple):
-    """Outcome of a page.
+class PageOutcome(NamedTuple):
+    """PageOutcome of a page.
 
     `failed` are the statements that do not hold, `error` why there is no page, which may be that it
     could not be written; `seconds` of CPU, and whether the data had been kept.
@@ -59,7 +59,7 @@ class Outcome(NamedTuple):
 
     @property
     def summary(self) -> str:
-        """Outcome of the checks, in a few words."""
+        """PageOutcome of the checks, in a few words."""
         held = f"{self.n_checks - len(self.failed)} of {self.n_checks} hold"
         if not self.error:
             return held
@@ -78,8 +78,8 @@ def run_gallery(
     *,
     draft: bool = False,
     workers: int | None = None,
-    report: Callable[[Outcome], None] | None = None,
-) -> list[Outcome]:
+    report: Callable[[PageOutcome], None] | None = None,
+) -> list[PageOutcome]:
     """Make pages and the index: computed on processes, drawn, checked, written.
 
     Parameters
@@ -98,7 +98,7 @@ def run_gallery(
 
     Returns
     -------
-    list of Outcome
+    list of PageOutcome
         In the order of `pages`. A page that fails does not stop the others.
 
     Raises
@@ -107,7 +107,7 @@ def run_gallery(
         If a process dies.
     """
     out.mkdir(parents=True, exist_ok=True)
-    found: dict[Path, Outcome] = {}
+    found: dict[Path, PageOutcome] = {}
     for outcome in _outcomes([script.path for script in pages], out, draft, workers):
         found[outcome.path] = outcome
         if report is not None:
@@ -119,7 +119,7 @@ def run_gallery(
 
 def _outcomes(
     paths: Sequence[Path], out: Path, draft: bool, workers: int | None
-) -> Iterator[Outcome]:
+) -> Iterator[PageOutcome]:
     from multiprocessing import get_context
 
     n = min(workers or _cores(), len(paths))
@@ -153,7 +153,7 @@ def _cores() -> int:
     return len(affinity(0)) if affinity is not None else (os.cpu_count() or 1)
 
 
-def _made(path: Path, out: Path, draft: bool) -> Outcome:
+def _made(path: Path, out: Path, draft: bool) -> PageOutcome:
     """Make one page."""
     label, started = path.stem, time.process_time()
     try:
@@ -165,9 +165,9 @@ def _made(path: Path, out: Path, draft: bool) -> Outcome:
         problem = _written(script, made, checks, out, is_kept=kept is not None)
     except Exception as error:  # noqa: BLE001 a page that fails does not stop the others
         seconds = time.process_time() - started
-        return Outcome(path, label, seconds, False, 0, (), f"{type(error).__name__}: {error}")
+        return PageOutcome(path, label, seconds, False, 0, (), f"{type(error).__name__}: {error}")
     failed = tuple(f"{one.statement} ({one.measured})" for one in checks if not one.holds)
-    return Outcome(path, label, made.seconds, kept is not None, len(checks), failed, problem)
+    return PageOutcome(path, label, made.seconds, kept is not None, len(checks), failed, problem)
 
 
 def _written(script: Script, made: Made, checks: list[Check], out: Path, *, is_kept: bool) -> str:
@@ -214,7 +214,7 @@ def _read(script: Script, out: Path, draft: bool) -> Made | None:
     return Made(data, float(head["seconds"]), draft, head["notes"])
 
 
-def _write_index(pages: Sequence[Script], made: Sequence[Outcome], out: Path) -> None:
+def _write_index(pages: Sequence[Script], made: Sequence[PageOutcome], out: Path) -> None:
     """Write the index of all pages that are there; one that could not be made is there no more."""
     for script, outcome in zip(pages, made, strict=True):
         if outcome.error:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "Circle",
-    "Problem",
+    "ArcProblem",
     "Segment",
     "acceptable",
     "circle",
@@ -114,7 +114,7 @@ class Circle(NamedTuple):
     d_slope: Array
 
 
-class Problem(NamedTuple):
+class ArcProblem(NamedTuple):
     """Gap, volume, contact angles and curvatures of the points; arrays of one length."""
 
     gap: Array
@@ -124,9 +124,9 @@ class Problem(NamedTuple):
     curvature_lower: Array
     curvature_upper: Array
 
-    def at(self, index: NDArray[np.intp] | Flags) -> Problem:
+    def at(self, index: NDArray[np.intp] | Flags) -> ArcProblem:
         """Select points."""
-        return Problem(*(value[index] for value in self))
+        return ArcProblem(*(value[index] for value in self))
 
 
 class Outline(NamedTuple):
@@ -178,7 +178,7 @@ def _distance(radius: Array, curvature: Array, profile: str) -> Array:
     return np.divide(np.arcsin(sine), curvature, out=radius.copy(), where=curvature > 0.0)
 
 
-def _start(problem: Problem, profile: str) -> tuple[Array, Array]:
+def _start(problem: ArcProblem, profile: str) -> tuple[Array, Array]:
     """Initial guess: contact circles between cones tangent to the bodies at the rim of a film.
 
     The rim is that of a film with a cylindrical edge; the volume of an arc between cones is a
@@ -207,7 +207,7 @@ def _start(problem: Problem, profile: str) -> tuple[Array, Array]:
     return _distance(one, lower, profile), _distance(two, upper, profile)
 
 
-def equations(problem: Problem, one: Array, two: Array, profile: str) -> Equations:
+def equations(problem: ArcProblem, one: Array, two: Array, profile: str) -> Equations:
     """Residuals at two contact circles: tilt of the chord and excess volume."""
     gap, volume, angle_lower, angle_upper, lower, upper = problem
     b, t = circle(one, lower, profile), circle(two, upper, profile)
@@ -254,7 +254,7 @@ class Followed(NamedTuple):
     closed: Flags
 
 
-def iterate(problem: Problem, profile: str, start: tuple[Array, Array] | None = None) -> Roots:
+def iterate(problem: ArcProblem, profile: str, start: tuple[Array, Array] | None = None) -> Roots:
     """Newton iteration on all points at once; converged points are frozen and dropped."""
     settled = np.zeros(problem.gap.shape, dtype=np.bool_)
     with np.errstate(all="ignore"):  # diverging points overflow and count as not converged
@@ -284,7 +284,7 @@ def iterate(problem: Problem, profile: str, start: tuple[Array, Array] | None = 
     return Roots(one, two, settled)
 
 
-def outline(problem: Problem, below: Circle, above: Circle) -> Outline:
+def outline(problem: ArcProblem, below: Circle, above: Circle) -> Outline:
     """Neck, bulge and force plane of the arcs between two contact circles."""
     lower = (_RIGHT - problem.angle_lower) - below.slope
     upper = (_RIGHT - problem.angle_upper) - above.slope
@@ -301,7 +301,7 @@ def outline(problem: Problem, below: Circle, above: Circle) -> Outline:
     )
 
 
-def acceptable(problem: Problem, one: Array, two: Array, profile: str) -> Flags:
+def acceptable(problem: ArcProblem, one: Array, two: Array, profile: str) -> Flags:
     """Whether roots are on the open-neck branch: neck open, width increasing with volume."""
     below = circle(one, problem.curvature_lower, profile)
     above = circle(two, problem.curvature_upper, profile)
@@ -315,7 +315,7 @@ def acceptable(problem: Problem, one: Array, two: Array, profile: str) -> Flags:
     )
 
 
-def _stage(problem: Problem, stage: Array) -> Problem:
+def _stage(problem: ArcProblem, stage: Array) -> ArcProblem:
     """Point of a continuation path from a small volume between touching bodies to the problem.
 
     First the volume grows (parameter 0 to 1), then the gap (1 to 2), so that the neck stays open.
@@ -328,7 +328,7 @@ def _stage(problem: Problem, stage: Array) -> Problem:
     return problem._replace(gap=np.where(stage > 1.0, gap, 0.0), volume=volume)
 
 
-def follow(problem: Problem, profile: str) -> Followed:
+def follow(problem: ArcProblem, profile: str) -> Followed:
     """Follow the open-neck branch by continuation, for points where the cold start failed.
 
     Failed steps are halved. One body at least must be curved.

@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError
 from ...numerics.roots import bracketed_root
 from . import flat as arc_flat
-from .contact_circles import Problem, acceptable, circle, equations, follow, iterate, outline
+from .contact_circles import ArcProblem, acceptable, circle, equations, follow, iterate, outline
 from .shape import refuse_spreading
 
 __all__ = ["ArcState", "solve", "volume", "zero_neck_gap"]
@@ -95,9 +95,9 @@ def _check_profile(profile: str) -> None:
         raise DescriptionError("profile", profile, "be 'sphere' or 'parabola'")
 
 
-def _problem(*given: ArrayLike) -> tuple[Problem, tuple[int, ...]]:
+def _problem(*given: ArrayLike) -> tuple[ArcProblem, tuple[int, ...]]:
     arrays = np.broadcast_arrays(*(np.asarray(value, dtype=np.float64) for value in given))
-    return Problem(*(np.ravel(value) for value in arrays)), arrays[0].shape
+    return ArcProblem(*(np.ravel(value) for value in arrays)), arrays[0].shape
 
 
 def solve(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...numerics.quadrature import gauss_legendre
 from .delaunay import Body, Elementary, End, Ends, body, ends, integrand, is_round, reach
 
-__all__ = ["ARRAYS", "Pair", "Point", "integrals_between", "pair", "point", "solids"]
+__all__ = ["ARRAYS", "Pair", "ChartPoint", "integrals_between", "pair", "point", "solids"]
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -81,7 +81,7 @@ class Pair(NamedTuple):
         return Pair(first, last, self.symmetric)
 
 
-class Point(NamedTuple):
+class ChartPoint(NamedTuple):
     """Bridges at points of the chart.
 
     Attributes
@@ -176,7 +176,7 @@ def _stretched(e: Array, first: End, last: End, from_bulge: bool) -> Array:
     return np.stack([span * (weights @ value) for value in values])
 
 
-def point(where: Pair, log_neck: Array, chart: Array) -> Point:
+def point(where: Pair, log_neck: Array, chart: Array) -> ChartPoint:
     """Bridges at points of the chart, lengths in the unit of the neck radius."""
     flat = not (where.limiting.curvature.any() or where.second.curvature.any())
     # between flats only the scale depends on the neck radius
@@ -204,7 +204,7 @@ def point(where: Pair, log_neck: Array, chart: Array) -> Point:
         np.pi * (content_e * shape + b.radius**2 * b.sine * arc_b + o.radius**2 * o.sine * arc_o)
         - caps
     )
-    return Point(
+    return ChartPoint(
         real,
         gap,
         volume,

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arc import sphere as arc_sphere
-from .chart import Pair, Point, pair, point, solids
+from .chart import ChartPoint, Pair, pair, point, solids
 
-__all__ = ["Problem", "Solution", "from_arc", "from_neck", "problem", "reorder_ends", "solve"]
+__all__ = ["BridgeProblem", "Solution", "from_arc", "from_neck", "problem", "reorder_ends", "solve"]
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -31,7 +31,7 @@ _ITERATIONS = 25
 _SETTLED = 1e-8
 
 
-class Problem(NamedTuple):
+class BridgeProblem(NamedTuple):
     """Gap and what is given, volume or pressure, of bridges between two bodies."""
 
     gap: Array
@@ -39,9 +39,11 @@ class Problem(NamedTuple):
     at_pressure: bool
     bodies: Pair
 
-    def at(self, index: NDArray[np.intp] | Flags) -> Problem:
+    def at(self, index: NDArray[np.intp] | Flags) -> BridgeProblem:
         """Select points."""
-        return Problem(self.gap[index], self.given[index], self.at_pressure, self.bodies.at(index))
+        return BridgeProblem(
+            self.gap[index], self.given[index], self.at_pressure, self.bodies.at(index)
+        )
 
 
 class Solution(NamedTuple):
@@ -52,7 +54,7 @@ class Solution(NamedTuple):
     log_neck: Array
     chart: Array
     settled: Flags
-    found: Point
+    found: ChartPoint
 
     @property
     def determinant(self) -> Array:
@@ -92,14 +94,14 @@ def problem(
     curvatures: tuple[Array, Array],
     *,
     at_pressure: bool = False,
-) -> Problem:
-    """Problem of given volumes, or pressures, between bodies of given shape.
+) -> BridgeProblem:
+    """Bridges of given volumes, or pressures, between bodies of given shape.
 
     Contact angles [rad] and curvatures are those of the lower and the upper body.
     """
     lower, upper = solids(angles[0], curvatures[0]), solids(angles[1], curvatures[1])
     symmetric = (angles[0] == angles[1]) & (curvatures[0] == curvatures[1])
-    return Problem(gap, given, at_pressure, pair(lower, upper, symmetric))
+    return BridgeProblem(gap, given, at_pressure, pair(lower, upper, symmetric))
 
 
 class Ends(NamedTuple):
@@ -139,7 +141,7 @@ def reorder_ends(
     return Ends(bodies, flipped ^ flip, chart)
 
 
-def _residual(given: Problem, at: Point, a: Array) -> tuple[Array, Array, Array]:
+def _residual(given: BridgeProblem, at: ChartPoint, a: Array) -> tuple[Array, Array, Array]:
     """Second residual and its derivatives: volume or pressure."""
     if given.at_pressure:
         target = a * given.given
@@ -158,7 +160,11 @@ def _residual(given: Problem, at: Point, a: Array) -> tuple[Array, Array, Array]
 
 
 def solve(
-    given: Problem, log_neck: Array, chart: Array, flipped: Flags, max_iterations: int = _ITERATIONS
+    given: BridgeProblem,
+    log_neck: Array,
+    chart: Array,
+    flipped: Flags,
+    max_iterations: int = _ITERATIONS,
 ) -> Solution:
     """Newton iteration on all points at once; converged points are dropped."""
     bodies = given.bodies
@@ -194,7 +200,7 @@ def _reordered(bodies: Pair, flipped: Flags, log_neck: Array, chart: Array) -> E
     return reorder_ends(bodies, flipped, log_neck, shape, chart)
 
 
-def from_neck(given: Problem, log_neck: Array, shape: Array) -> Solution:
+def from_neck(given: BridgeProblem, log_neck: Array, shape: Array) -> Solution:
     """Newton iteration from a neck radius (logarithm) and a shape e, both phases acute."""
     bodies = given.bodies
     k = bodies.limiting.curvature * np.exp(log_neck)
@@ -220,7 +226,7 @@ def neck_from_force(
 
 
 def from_arc(
-    given: Problem, angles: tuple[Array, Array], curvatures: tuple[Array, Array]
+    given: BridgeProblem, angles: tuple[Array, Array], curvatures: tuple[Array, Array]
 ) -> Solution:
     """Newton iteration from the circular approximation; one body is curved, the volume is one."""
     arc = arc_sphere.solve(given.gap, 1.0, *angles, *curvatures)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...errors import ConvergenceError, InfeasibleError
 from .chart import Pair
 from .continuation import FreeBranch, march_free
-from .newton import Problem, Solution, from_neck, problem, solve
+from .newton import BridgeProblem, Solution, from_neck, problem, solve
 from .volume_branch import Branch, march
 
 __all__ = ["branch_at_pressure", "from_film", "holds"]
@@ -87,7 +87,7 @@ def branch_at_pressure(
     angles = np.array([angle_lower]), np.array([angle_upper])
     curvatures = np.array([curvature_lower]), np.array([curvature_upper])
 
-    def given(level: float) -> Problem:
+    def given(level: float) -> BridgeProblem:
         return problem(np.zeros(1), np.array([level]), angles, curvatures, at_pressure=True)
 
     with np.errstate(all="ignore"):

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...errors import ConvergenceError
 from .continuation import FreeBranch
 from .free_ends import descend, newton
-from .newton import Problem, Solution, from_arc, problem, solve
+from .newton import BridgeProblem, Solution, from_arc, problem, solve
 from .pressure_branch import branch_at_pressure, from_film, holds
 from .result import Columns, cylinders, from_chart, from_free
 from .stability import Key, branch, is_cylinder
@@ -37,14 +37,14 @@ class BeyondLimitError(Exception):
         self.point, self.limit = point, limit
 
 
-def _given(key: Key, gap: Array, pressure: float | None) -> Problem:
+def _given(key: Key, gap: Array, pressure: float | None) -> BridgeProblem:
     lower, upper, below, above = (np.full(gap.size, value) for value in key)
     given = np.full(gap.size, 1.0 if pressure is None else pressure)
     at_pressure = pressure is not None
     return problem(gap, given, (lower, upper), (below, above), at_pressure=at_pressure)
 
 
-def _on_curve(curve: Branch, given: Problem, gap: Array) -> Solution:
+def _on_curve(curve: Branch, given: BridgeProblem, gap: Array) -> Solution:
     """Newton iteration from initial guesses on the branch."""
     chart, log_neck = curve.place(gap)
     flipped = np.full(gap.size, curve.flipped)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...errors import ConvergenceError
 from ...numerics.roots import bracketed_root
-from .chart import Pair, Point, point
+from .chart import ChartPoint, Pair, point
 from .delaunay import Body
 from .newton import reorder_ends
 
@@ -166,7 +166,7 @@ def along(
     )
 
 
-def _along_flats(at: Point) -> tuple[Array, Array, Array]:
+def _along_flats(at: ChartPoint) -> tuple[Array, Array, Array]:
     """Like `along`, for unit volume, from bridges between flats of unit neck radius."""
     good = (at.volume > 0.0) & (at.ends.sine_second <= 1.0)
     log_neck = -np.log(np.where(good, at.volume, 1.0)) / 3.0
@@ -186,7 +186,7 @@ def _gone(
     return log_neck, gap, slope
 
 
-def _excess(at: Point, log_neck: Array, pressure: float | None) -> tuple[Array, Array, Array]:
+def _excess(at: ChartPoint, log_neck: Array, pressure: float | None) -> tuple[Array, Array, Array]:
     """Residual at given zeta, and its derivatives by the logarithm of the neck radius and zeta."""
     if pressure is not None:
         target = pressure * np.exp(log_neck)

@@ -88,7 +88,7 @@ class AttractionLaw(Described, abc.ABC):
 
     @abc.abstractmethod
     def on_grid(self, self_influence: float) -> TensionLaw:
-        """Return the law on a grid whose pixels have an influence on themselves of [m/Pa]."""
+        """Return the law on a grid of a given self-influence coefficient [m/Pa]."""
 
     def cure_of_trapping(self, number: float, highest: float) -> str:
         """Say how to lower a trapping number to the highest that is in its range."""

@@ -288,7 +288,7 @@ class PressureBound(ContactEffect[Part]):
 
     @abc.abstractmethod
     def prepare(self, scene: ContactScene, grid: Grid) -> HardnessLaw:
-        """Do the work that does not depend on the pressure."""
+        """Precompute what does not depend on the pressure."""
 
     def unknowns(self, view: InterfaceView) -> tuple[Unknown, ...]:
         """See `ContactEffect.unknowns`: the hardness, if it is one for each pixel."""
@@ -393,7 +393,7 @@ class Attraction(ContactEffect[Part]):
 
     @abc.abstractmethod
     def prepare(self, self_influence: float) -> TensionLaw:
-        """Return the law on a grid whose pixels have an influence on themselves of [m/Pa]."""
+        """Return the law on a grid of a given self-influence coefficient [m/Pa]."""
 
     def unknowns(self, view: InterfaceView) -> tuple[Unknown, ...]:
         """See `ContactEffect.unknowns`: the tension."""

@@ -96,7 +96,7 @@ class HardnessRule(Described, abc.ABC):
 
     @abc.abstractmethod
     def prepare(self, scene: ContactScene, grid: Grid) -> HardnessLaw:
-        """Do the work that does not depend on the pressure."""
+        """Precompute what does not depend on the pressure."""
 
 
 def as_rule(value: Any) -> Any:

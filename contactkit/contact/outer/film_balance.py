@@ -29,17 +29,30 @@ from .unknown import Target
 
 __all__ = ["film_companion", "solve_under_load", "to_last_pixel"]
 
-_MAX_IMBALANCE = 0.05  # of the load, at a step of the force
-_LOOSE = 1e-4  # tolerance of contacts far from the balance
-_AHEAD = 1e-3  # tolerance of a contact over the imbalance of the one before
-_OUTER = 100.0  # imbalance over tolerance of the contact above which its sign is certain
-_NARROW = 1.1  # ratio of loads between which the contact may be interpolated
-_KEPT = 5  # contacts of which the nearest are the initial guess of the next
-_FEWEST = 96  # pixels along a side of the companion on which further equilibria are looked for
+# Measured on a rough contact of 96 x 96 pixels whose film pulls as well, under five loads from
+# 0.03 to 10 MPa: 1162 applications of the operator in all.
+_MAX_IMBALANCE = 0.05  # of the load, at a step of the force: beyond, no contact is a balance
+# Tolerance of contacts far from the balance, and of each over the imbalance of the one before: a
+# force that is off by less has the right sign. Tighter by a hundred times either takes 15 to 17 %
+# more applications; looser, 4 to 7 % fewer, and pixels at the edge of a meniscus may be wrong.
+_LOOSE, _AHEAD = 1e-4, 1e-3
+# Imbalance over tolerance of the contact above which its sign is certain: 1000 takes 7 % more, 10
+# takes as many.
+_OUTER = 100.0
+# Ratio of loads between which the contact may be interpolated: 1.02 takes 3 % more, 1.5 as many.
+_NARROW = 1.1
+# Contacts of which the nearest are the initial guess of the next: 1 takes 17 % more, 20 takes 3 %
+# fewer, each a map in memory.
+_KEPT = 5
+# Pixels along a side of the companion on which further equilibria are looked for: coarser, a step
+# of one pixel is a step of the force that the map itself does not have.
+_FEWEST = 96
 _COMPANION = Accuracy(rtol=1e-3)
 _PIXEL_RTOL = 1e-8  # to which single pixels of a film are known: at 1e-7 some differ, measured
-_AROUND = 0.05  # of the load, to either side of a balance: where others are looked for
-_SAMPLES = 64  # loads in that range
+# Of the load, to either side of a balance, where others are looked for. 0.01 takes 4 % fewer
+# applications, 0.2 takes 1 % more.
+_AROUND = 0.05
+_SAMPLES = 64  # loads in that range, of interpolated contacts: none is solved
 
 
 Part = TypeVar("Part")

@@ -22,4 +22,10 @@ convolution         Displacement under a pressure map by fast Fourier transforms
 loops_numpy         Loops over pixels in numpy.
 loops_numba         The same loops compiled.
 reference_solvers   Conjugate gradients with bounds and L-BFGS-B, as checks and as the fallback.
+
+What the thresholds of these modules are worth was measured over 19 contacts of one rough surface,
+solved to 1e-8: half-spaces, soft coatings and stiff ones of 3 to 100 000 times the modulus of the
+substrate, periodic, isolated and in strips, with a hardness and without, 3 to 81 % of the map in
+contact. They take 479 applications of the operator on 128 x 128 pixels, 556 on 256 x 256; where a
+comment says what other values take, it is of these sums. Thresholds that change nothing are guards.
 """

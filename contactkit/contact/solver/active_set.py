@@ -17,10 +17,10 @@ from .projected_set import ProjectedSet
 from .state import SINGLE_LIMIT, ActiveSetState
 from .truncated_set import TruncatedSet
 
-__all__ = ["Outcome", "improve"]
+__all__ = ["SetOutcome", "improve"]
 
 
-class Outcome(NamedTuple):
+class SetOutcome(NamedTuple):
     """End of the iterations; pressure and reduced gap are in the maps of the grid.
 
     approach : rigid-body approach; relative : largest violation over the height scale
@@ -37,7 +37,7 @@ class Outcome(NamedTuple):
     is_stalled: bool = False
 
 
-def improve(grid: GridLevel, problem: ContactProblem, rtol: float) -> Outcome:
+def improve(grid: GridLevel, problem: ContactProblem, rtol: float) -> SetOutcome:
     """Iterate on one grid until the relative residual is `rtol`, or no longer falls.
 
     Parameters
@@ -51,7 +51,7 @@ def improve(grid: GridLevel, problem: ContactProblem, rtol: float) -> Outcome:
 
     Returns
     -------
-    Outcome
+    SetOutcome
         With ``relative > rtol`` if the iterations stagnate: the fallback has to finish.
     """
     history: list[tuple[int, float]] = []
@@ -66,7 +66,7 @@ def improve(grid: GridLevel, problem: ContactProblem, rtol: float) -> Outcome:
     # The caller looks at `relative` alone: a residual in single precision, or one of pressures that
     # miss the load, must not pass for a solution.
     relative = state.relative if is_done else max(state.relative, 2.0 * rtol)
-    return Outcome(state.approach, relative, state.certificate, len(history), tuple(history))
+    return SetOutcome(state.approach, relative, state.certificate, len(history), tuple(history))
 
 
 def _iterate(state: ActiveSetState, history: list[tuple[int, float]]) -> bool:

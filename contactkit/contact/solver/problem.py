@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 Floats = NDArray[np.float64]
-SMALLEST, LARGEST = 1e-140, 1e140  # heights [m] whose squares are numbers of a computer
+SMALLEST, LARGEST = 1e-140, 1e140  # heights [m] whose squares neither overflow nor underflow
 
 
 class Solution(NamedTuple):

@@ -37,17 +37,29 @@ __all__ = ["ProjectedSet"]
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
-UNSETTLED = 0.05  # fraction of pixels that come or go above which the metric alone is used
-SHORT = 0.7  # step of the line search below which the trial is not taken whole
-FARTHEST = 2.0  # pressures that a trial may move before it is projected, over the load
-FARTHER = 30.0  # how much more it may after a step that could have gone on
-MAX_APPLICATIONS = 1500  # of the operator
-MOST_SHORT = 3  # such steps in a row, after which conjugate gradients are tried
-STUCK = 0.02  # step of the line search that stalls
-LEAST = 0.1  # fraction of a step in the metric that is tried after short ones
-FINEST = 1e-6  # tolerance of the projection after steps that stalled
-FLOOR = 1e-2  # reduction that single precision still gives under a stiff film
-REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear residual is reduced
+# Measurements are those of the room (`contact.solver`), on 128 x 128 pixels.
+#
+# Fraction of pixels that come or go above which the metric alone is used: conjugate gradients on a
+# set that changes are lost. 0.2 takes 3 % more applications, 0.01 1 %.
+UNSETTLED = 0.05
+# Step of the line search below which the trial is not taken whole: the energy falls all the same,
+# and the gap at the whole step is known. 0.9 takes 2 % more applications, 0.4 2 % fewer.
+SHORT = 0.7
+# Pressures that a trial may move before it is projected, over the load: what bounds cut off anyway
+# costs the projection its digits. 0.5 to 8 take the same within 1 %.
+FARTHEST = 2.0
+FARTHER = 30.0  # how much more it may after a step that could have gone on: 3 to 300 are alike
+MAX_APPLICATIONS = 1500  # of the operator: a guard, the longest of these contacts takes 38
+MOST_SHORT = 3  # such steps in a row, after which conjugate gradients are tried: 1 to 10 within 1 %
+STUCK = 0.02  # step of the line search that stalls: 0.005 to 0.1 are alike
+LEAST = 0.1  # fraction of a step in the metric that is tried after short ones: 0.02 to 0.5 alike
+FINEST = 1e-6  # tolerance of the projection after steps that stalled: 1e-8 to 1e-4 are alike
+# Reduction that single precision still gives under a stiff film: at 0.1 a film of 3000 times the
+# modulus takes 45 applications in place of 38, at 1e-3 40.
+FLOOR = 1e-2
+# Fraction of pixels that come or go, and how far the linear residual is reduced: three times as far
+# or a third takes 2 % more applications, always to the end 4 %.
+REDUCTIONS = (
     (0.01, 0.1),
     (3e-4, 0.03),
 )
@@ -223,7 +235,7 @@ class ProjectedSet(ActiveSetState):
         self.missing = 0.0
 
     def _reduction(self) -> float:
-        """How far to reduce the linear residual: little as long as the set changes."""
+        """Reduction of the linear residual: inexact Newton, loose while the active set changes."""
         for fraction, reduction in REDUCTIONS:
             if self.changed > fraction:
                 return reduction

@@ -19,16 +19,24 @@ from .state import ActiveSetState
 
 __all__ = ["TruncatedSet"]
 
-CAUTIOUS_AFTER = 1  # iterations without progress after which few pixels leave a bound at a time
-WORST = 0.8  # violation of those few, over the maximum
-CYCLE = 5  # iterations without progress after which pixels that stop at a bound stay there
-REDUCTIONS = (  # fraction of pixels that come or go, and how far the linear residual is reduced
+# Measurements are those of the room (`contact.solver`), on 128 x 128 pixels.
+#
+# Iterations without progress after which few pixels leave a bound at a time. At once (0) it takes
+# 2.3 times the applications, as most sets are right after a few steps; 3 take as many.
+CAUTIOUS_AFTER = 1
+WORST = 0.8  # violation of those few, over the maximum: 0.5 to 0.95 take the same
+CYCLE = 5  # iterations without progress after which pixels that stop at a bound stay there: a guard
+# Fraction of pixels that come or go, and how far the linear residual is reduced. Always reduced to
+# the end it takes 46 % more applications, by the last pair alone 5 %; twice as far or half, 1 %.
+REDUCTIONS = (
     (0.05, 0.2),
     (0.01, 0.1),
     (3e-4, 0.03),
 )
-SAFETY = 0.3  # of the last reduction: the violation is a maximum, the linear residual a norm
-PATIENCE = 15  # iterations within which the residual must have halved
+# Of the last reduction: the violation is a maximum, the linear residual a norm. 0.1 takes 1 % more
+# applications, 1 takes 1 % fewer.
+SAFETY = 0.3
+PATIENCE = 15  # iterations within which the residual must have halved: a guard, 5 to 40 are alike
 
 
 class TruncatedSet(ActiveSetState):
@@ -70,7 +78,7 @@ class TruncatedSet(ActiveSetState):
             self._predict_free()
 
     def _reduction(self) -> float:
-        """How far to reduce the linear residual: inexact Newton, loose as the set changes."""
+        """Reduction of the linear residual: inexact Newton, loose while the active set changes."""
         if self.stuck:
             return 0.03
         enough = SAFETY * self.rtol / max(self.relative, 1e-5 * self.rtol)

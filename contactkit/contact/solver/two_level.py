@@ -34,7 +34,9 @@ __all__ = ["CoarseBlocks", "Stencil", "TwoLevel", "inverse_stencil", "least_eige
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
-SAFE = 0.1  # least eigenvalue to keep, as a part of the centre weight
+# Least eigenvalue to keep, as a part of the centre weight: with 0.01 and 0.3 the contacts of the
+# room take 1 % more applications (128 x 128 pixels).
+SAFE = 0.1
 
 
 class Stencil(NamedTuple):

@@ -16,10 +16,17 @@ __all__ = ["Start", "initial_pressure"]
 
 Floats = NDArray[np.float64]
 Start = Floats | Sequence[tuple[float, Floats]]
-MAX_SOLUTIONS = 3  # a parabola: more do not help where pixels enter or leave contact
+# Load curves of eight loads on a half-space and coatings of 3 and 30 times the modulus, 128 x 128
+# pixels: 429 applications where a load is 1.1 times the one before, 530 at 1.35, 626 at 1.8.
+#
+# A parabola: more do not help where pixels enter or leave contact. A line takes 8 % more in steps
+# of 1.1, the last pressures alone 15 %.
+MAX_SOLUTIONS = 3
 MOST_WEIGHT = 10.0  # sum of the weights, by which errors are amplified; 7 for equal steps
-FARTHEST = 0.5  # logarithm of the ratio of loads from which the nested grids start better
-FARTHEST_ALONE = 0.15  # the same from a single solution
+# Logarithm of the ratio of loads from which the nested grids start better: with 0.25 4 % more in
+# steps of 1.35, with 2 2 % more in steps of 1.8.
+FARTHEST = 0.5
+FARTHEST_ALONE = 0.15  # the same from a single solution: 0.05 and 0.5 within 1 %
 
 
 def initial_pressure(

@@ -29,7 +29,7 @@ from .strips import LineStep, StripGrids, strip_grids
 __all__ = [
     "Grids",
     "Mean",
-    "Step",
+    "WindowStep",
     "add_correction",
     "grids_of",
     "isolated_grids",
@@ -60,7 +60,7 @@ SMOOTHING = 2.5
 MARGIN = 6
 
 
-class Step(NamedTuple):
+class WindowStep(NamedTuple):
     """Two coarse grids, the narrow one of a given period, and splines from them to the map."""
 
     period: Pair
@@ -75,7 +75,7 @@ class Grids(NamedTuple):
     """The grid of a map, and the steps that remove its periodic images; none if it is periodic."""
 
     first: Grid
-    steps: tuple[Step, ...]
+    steps: tuple[WindowStep, ...]
 
     @property
     def all(self) -> list[Grid]:
@@ -193,7 +193,7 @@ def isolated_grids(window: tuple[int, int], pixel_size: Pair, padding: float) ->
     return Grids(first, tuple(steps))
 
 
-def add_correction(field: Array, wide: Array, narrow: Array, step: Step | LineStep) -> None:
+def add_correction(field: Array, wide: Array, narrow: Array, step: WindowStep | LineStep) -> None:
     """Add the correction of a step to one field of a map, in place.
 
     Examples
@@ -210,7 +210,7 @@ def add_correction(field: Array, wide: Array, narrow: Array, step: Step | LineSt
     field += step.along_y @ (wide - narrow)[step.part] @ step.along_x.T
 
 
-def _step(period: Pair, window: tuple[int, int], pixel_size: Pair) -> Step:
+def _step(period: Pair, window: tuple[int, int], pixel_size: Pair) -> WindowStep:
     coarse = period[0] / COARSE, period[1] / COARSE
     wide, narrow = (
         Grid(grid_of_modes((size, size), coarse), coarse, (COARSE, COARSE))
@@ -219,10 +219,10 @@ def _step(period: Pair, window: tuple[int, int], pixel_size: Pair) -> Step:
     (in_y, along_y), (in_x, along_x) = (
         _splines(n, d, c) for n, d, c in zip(window, pixel_size, coarse, strict=True)
     )
-    return Step(period, wide, narrow, (in_y, in_x), along_y, along_x)
+    return WindowStep(period, wide, narrow, (in_y, in_x), along_y, along_x)
 
 
-def _long_waves(loads: Loads, step: Step) -> Loads:
+def _long_waves(loads: Loads, step: WindowStep) -> Loads:
     """Long waves of the loads on the wide grid of a step, for the next one.
 
     They are transforms (integrals, about the centre of the map) on the modes of a grid of COARSE
@@ -236,7 +236,7 @@ def _long_waves(loads: Loads, step: Step) -> Loads:
     return [None if low is None else _shifted(low, far, middle) for low in lows]
 
 
-def _smooth_load(low: Complex, step: Step) -> Array:
+def _smooth_load(low: Complex, step: WindowStep) -> Array:
     """Load on the coarse grid, the centre of the map at its middle."""
     period, coarse = step.period, step.wide.pixel_size
     smooth = low * _smoothing(period, coarse) / (coarse[0] * coarse[1])

@@ -1,4 +1,4 @@
-"""Maxima of stress measures on a plane and over depth, and the planes that are missing.
+"""Maxima of stress measures on a plane and over depth, and the planes to insert.
 
 z points into the solid; x and y count from the first pixel of the map.  A maximum is that of the
 pixels of a plane: none is interpolated.  In-plane stresses jump at an interface, so that a maximum

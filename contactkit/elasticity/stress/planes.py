@@ -30,7 +30,7 @@ from ...errors import DescriptionError
 from ..depths import Side, locate
 from ..layer_stack import Layers, Stack, stack_of
 from ..layered_fields import PlaneStates, plane_states
-from .isolated import Mean, Step, add_correction, grids_of
+from .isolated import Mean, WindowStep, add_correction, grids_of
 from .periodic import (
     IMAGINARY,
     Grid,
@@ -180,7 +180,7 @@ class StressField:
     ) -> Iterator[Plane]:
         """Planes, the first of which the short waves reach."""
         count, grids, n_grids = 9 if displacement else 6, self._grids, len(self._grids.all)
-        steps: tuple[Step | LineStep, ...] = grids.steps
+        steps: tuple[WindowStep | LineStep, ...] = grids.steps
         for i in range(n):
             of_grids = [next(one) for one in states[:n_grids]]
             short = next(states[-1]) if i < n_shallow else None

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...errors import DescriptionError
 from ..layer_stack import Layers
 from ..layered import compliance
-from .isolated import Mean, Step, add_correction, grids_of
+from .isolated import Mean, WindowStep, add_correction, grids_of
 from .periodic import Grid, into_space
 from .strips import LineStep
 
@@ -114,7 +114,7 @@ def traction_coupling(
     [ 1. -1.]
     """
     grids = grids_of(shape, pixel_size, mean, padding)
-    steps: tuple[Step | LineStep, ...] = grids.steps
+    steps: tuple[WindowStep | LineStep, ...] = grids.steps
     compliances = [
         np.concatenate([[0.0], compliance(grid.modes.length, *layers).F12]) for grid in grids.all
     ]

@@ -29,7 +29,8 @@ class Control:
     Parameters
     ----------
     tolerance : float
-        Error of a step, of the force over its largest so far and of the gap over itself.
+        Error of a step, of the force over the largest so far or that imposed, and of the gap
+        over itself.
     stages : int
         2 or 3; with 3 smooth motions take a third of the steps, with cavities or contacts about as
         many, of one and a half times the cost.
@@ -39,15 +40,12 @@ class Control:
         Length of the first step over the span, and of those that need not meet the tolerance:
         whatever begins at once, a speed or a force, makes the pressures of rigid bodies jump, and
         no estimate holds there.
-    force : float
-        Force to which errors are related, until a larger one acts.
     """
 
     tolerance: float = 1e-4
     stages: int = 3
     strength: float = 0.0
     first: float = 1e-5
-    force: float = 0.0
 
 
 class State(NamedTuple):
@@ -129,7 +127,7 @@ class _Run(Progress[State, Stepped]):
         self.size = StepSize(order=METHODS[control.stages].order, safety=0.85, grow=5.0)
         self.jumped = True
         self.last: tuple[float, Stepped] | None = None
-        self.highest = max(abs(self._force(start.fields)), control.force)
+        self.highest = abs(self._force(start.fields))
         self.n_steps = self.n_rejected = self.n_iterations = 0
 
     def _force(self, fields: Fields) -> float:
@@ -144,7 +142,7 @@ class _Run(Progress[State, Stepped]):
             self.last, self.length = None, self.size.shorter(length, math.inf)
             return False
         is_tiny = length <= self.control.first * self.span
-        error = 0.0 if self.jumped or is_tiny else self._error(done)
+        error = 0.0 if self.jumped or is_tiny else self._error(done, length)
         if error > 1.0:
             self.n_rejected += 1
             self.length = self.size.shorter(length, error)
@@ -176,11 +174,12 @@ class _Run(Progress[State, Stepped]):
         known = method.nodes * before - before
         return [_extrapolated(done.stages, known, at) for at in method.nodes * length]
 
-    def _error(self, done: Stepped) -> float:
+    def _error(self, done: Stepped, length: float) -> float:
         """Error of a step over its tolerance."""
         end, error = done.stages[-1], done.error
         force = abs(self._force(error._replace(rim=end.rim)))
-        scale = max(self.highest, abs(self._force(end)), 1e-300)
+        imposed = self.gap.imposed(end, self.state.time + length)
+        scale = max(self.highest, abs(self._force(end)), imposed, 1e-300)
         h = self.gap.gap(end)
         pressed = self.gap.compliance @ (error.pressure + error.solid)
         moved = np.abs(error.rigid_gap + end.rim * pressed) / np.abs(h)

@@ -284,9 +284,11 @@ class _Newton:
         size = 0.0
         # A pressure that moves nothing and that of a film at rest: 1e-6 of a gap of 1.
         least = 1e-6 * min(1.0, self.gap.stiffness)
+        even = np.ones(len(self.gap.shape))
         for k, now in enumerate(self.now):
             moved = self._changes(change, k)
-            whole = max(float(np.abs(now.pressure + now.solid).max()), least)
+            mean = self.gap.imposed(now, self.times[k]) / self.gap.thrust(even, now.rim)
+            whole = max(float(np.abs(now.pressure + now.solid).max()), mean, least)
             parts = (
                 float(np.abs(moved.pressure).max()) / whole,
                 float(np.abs(moved.solid).max()) / whole,

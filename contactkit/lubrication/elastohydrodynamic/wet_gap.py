@@ -130,6 +130,17 @@ class WetGap:
         """Displacement of both bodies; that of half-spaces grows with the mesh."""
         return now.rim * (self.compliance @ (now.pressure + now.solid))
 
+    def imposed(self, now: Fields, time: float) -> float:
+        """Size of the forces on a mass from outside; 0 of an imposed gap.
+
+        That of the film is negligible until a heavy mass moves, and until then no scale of errors.
+        """
+        drive = self.drive
+        if isinstance(drive, Imposed):
+            return 0.0
+        spring = drive.stiffness * (drive.spring_end(time) - now.rigid_gap)
+        return abs(drive.force(time)) + abs(spring)
+
     def gap(self, now: Fields) -> Array:
         """Gap of the deformed bodies."""
         return now.rigid_gap + now.rim**2 * self.shape + self.displacement(now)

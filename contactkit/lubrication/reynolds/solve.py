@@ -11,7 +11,7 @@ from attrs import evolve
 from ...errors import DescriptionError, InfeasibleError
 from ...validity import warn
 from .complementarity import (
-    Problem,
+    ComplementarityProblem,
     Solution,
     solve_active_set,
     solve_fischer_burmeister,
@@ -39,8 +39,12 @@ __all__ = [
     "unchecked_step",
 ]
 
+# An edge of a cavity that moves by some cells settles within this, one that moves far is found on
+# the coarser grid. Six steps of a pull and a steady film on 320 x 240 cells solve for 2.8 million
+# cells in all; with 1 or 8, 3.1 million, without coarser grids 2.95.
 PATIENCE = 4
 """Iterations of the active set before a coarser grid is asked for a better guess."""
+# Below, the active set itself settles in a few solutions: 4 to 64 cost the same.
 SMALLEST_GRID = 16
 """Cells along the longer side below which no coarser grid is asked."""
 _AT_REST = (0.0, 0.0)  # walls that do not slide [m/s]
@@ -470,7 +474,7 @@ def _at_unknowns(mesh: Mesh, values: NDArray[Any]) -> NDArray[Any]:
     return found
 
 
-def _problem(task: Task) -> tuple[Balance, Problem]:
+def _problem(task: Task) -> tuple[Balance, ComplementarityProblem]:
     film, face = task.film, task.face
     balance = discretise(face, task.gap, film.viscosity, task.velocity, film.compressibility)
     mesh = balance.mesh
@@ -498,7 +502,7 @@ def _problem(task: Task) -> tuple[Balance, Problem]:
     drop = balance.reference - _at_unknowns(mesh, task.floor)
     transport = balance.transport if task.has_memory else None
     solver = choose_solver(task.solver, mesh.size)
-    return balance, Problem(conductances, storage, transport, deficit, drop, solver)
+    return balance, ComplementarityProblem(conductances, storage, transport, deficit, drop, solver)
 
 
 def _excess(task: Task, mesh: Mesh) -> Array:

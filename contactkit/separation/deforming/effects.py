@@ -39,7 +39,6 @@ class ElasticBodies(CoupledEffect):
     """
 
     name: ClassVar[str] = "elastic-bodies"
-    takes_grid: ClassVar[bool] = True
     summary: ClassVar[str] = "the bodies deform under the pressure of film, meniscus and contact"
 
     @property
@@ -54,6 +53,10 @@ class ElasticBodies(CoupledEffect):
     def takes_solids(self) -> bool:
         """See `SeparationEffect.takes_solids`."""
         return True
+
+    def reads(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `Effect.reads`: elements, or cells, by the tolerance; those of a map may be given."""
+        return ("film_rtol", "grid")
 
 
 @frozen(kw_only=True)

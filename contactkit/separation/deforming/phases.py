@@ -26,8 +26,7 @@ def pressing_speed(plan: DeformingPlan) -> float:
     loading = plan.scene.loading
     if not isinstance(loading, PressAndPull):
         return 0.0
-    film = plan.film
-    return loading.press * film.gap**3 / (6.0 * math.pi * film.viscosity * film.width**4)
+    return loading.press / plan.rigid_damping
 
 
 def phases(plan: DeformingPlan, fields_at: Sequence[float] = ()) -> list[Phase]:

@@ -109,6 +109,10 @@ class AsperityMenisci(SeparationForce):
         """See `Effect.liquid_needs`."""
         return ("surface_tension",)
 
+    def reads(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `Effect.reads`: of a curve through bridges, which a closed form meets by itself."""
+        return ("time_rtol",)
+
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""
         meniscus, missing = scene.meniscus, list[str]()

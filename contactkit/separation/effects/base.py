@@ -249,7 +249,7 @@ class SeparationEffect(Effect):
         return ()
 
     def rimless_radius(self, prepared: PreparedScene[Any], gap: float) -> float:
-        """Radius [m] of the circle that is taken on a flat under a sphere as if that had no rim.
+        """Radius [m] of the contact line on a flat under a sphere if the rim is ignored.
 
         At a gap [m]; 0 for an effect that takes the rim into account.
         """
@@ -303,7 +303,7 @@ class SeparationForce(SeparationEffect):
 
     @abc.abstractmethod
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
-        """Do the work that depends on neither gap nor speed."""
+        """Precompute what depends on neither gap nor speed."""
 
     def part(self, result: RunView) -> ForcePart:
         """See `SeparationEffect.part`."""
@@ -324,7 +324,7 @@ class FilmLimit(SeparationEffect):
 
     @abc.abstractmethod
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
-        """Do the work that depends on neither gap nor speed."""
+        """Precompute what depends on neither gap nor speed."""
 
     def cavity_law(self, prepared: PreparedScene[SeparationScene]) -> Cavitation | None:
         """Film that cavitates, for a limit with a memory; it then has no `Limiter`."""
@@ -382,6 +382,7 @@ class CoupledEffect(SeparationEffect):
     """
 
     takes_pressure: ClassVar[bool] = True
+    solves_motion: ClassVar[bool] = True
 
 
 def effects_of(scene: SeparationScene | SlidingScene) -> tuple[SeparationEffect, ...]:

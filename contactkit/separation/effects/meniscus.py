@@ -157,6 +157,10 @@ class MeniscusForce(SeparationForce):
         """See `Effect.liquid_needs`."""
         return ("surface_tension",)
 
+    def reads(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `Effect.reads`: of a curve through bridges, which a closed form meets by itself."""
+        return ("time_rtol",)
+
     def proportional_to(self, scene: SeparationScene) -> str:
         """See `SeparationForce.proportional_to`; at a fixed pressure it is not."""
         return "" if scene.meniscus.has_pressure else "surface_tension"

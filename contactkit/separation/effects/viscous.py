@@ -191,6 +191,10 @@ class ViscousForce(SeparationForce):
         """See `SeparationEffect.takes_solids`: they say whether the faces are stiff enough."""
         return True
 
+    def reads(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `Effect.reads`: the tolerance of its film, which a closed form meets by itself."""
+        return ("film_rtol",)
+
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.liquid_needs`: a film of fixed pressure has a height as well."""
         at_pressure = scene.meniscus.has_pressure
@@ -481,6 +485,10 @@ class TensionLimit(FilmLimit):
     def follows_cavity(self) -> bool:
         """Whether the cavity has an edge, and is remembered."""
         return self.cavity == "mass-conserving"
+
+    def reads(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `Effect.reads`: a cavity that is remembered is followed in time."""
+        return ("time_rtol",) if self.follows_cavity else ()
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.lacks`."""

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ...numerics.quadrature import gauss_legendre
 from ...numerics.radau_tableau import NODES, WEIGHTS
-from .radau import Point, Step, coordinate
+from .radau import MotionPoint, Step, coordinate
 
 __all__ = ["peak", "work"]
 
@@ -68,12 +68,12 @@ def peak(first: float, stages: Sequence[float]) -> Peak:
     return Peak(value, where)
 
 
-def work(start: Point, taken: Step, first: float, values: Sequence[float]) -> float:
+def work(start: MotionPoint, taken: Step, first: float, values: Sequence[float]) -> float:
     r"""Integral of a force over the travel of a step, :math:`\int F \, dh` [J].
 
     Parameters
     ----------
-    start : Point
+    start : MotionPoint
         Where the step started.
     taken : Step
         The step.
@@ -104,7 +104,7 @@ def work(start: Point, taken: Step, first: float, values: Sequence[float]) -> fl
     return total
 
 
-def _by_weights(start: Point, taken: Step, values: Sequence[float]) -> float:
+def _by_weights(start: MotionPoint, taken: Step, values: Sequence[float]) -> float:
     """Integral of a force over the travel by the quadrature of the method [J]."""
     dt = taken.stages[2].time - start.time
     stages = zip(WEIGHTS, values, taken.stages, strict=True)

@@ -34,8 +34,8 @@ from ...numerics.three import Three, solved_three
 __all__ = [
     "Forces",
     "Memory",
-    "Point",
-    "Problem",
+    "MotionPoint",
+    "StepProblem",
     "Step",
     "against_halves",
     "coordinate",
@@ -61,7 +61,7 @@ _IMPULSE = 0.1  # of an estimate that is 20 to 2000 times the error of the visco
 _ROUND_OFF = 1e-6  # change of the rates below which an iteration that stalls has converged
 
 
-class Point(NamedTuple):
+class MotionPoint(NamedTuple):
     """A point of the motion: time [s], gap [m], speed [m/s]."""
 
     time: float
@@ -96,7 +96,7 @@ class Memory(NamedTuple):
     found: Any
 
 
-class Problem(NamedTuple):
+class StepProblem(NamedTuple):
     """Equation of motion of one step, its initial point, and the scales of its errors."""
 
     mass: float  # [kg]
@@ -106,7 +106,7 @@ class Problem(NamedTuple):
     forces: Callable[[float, float], Forces]  # at a gap [m] and a speed [m/s]
     has_limits: bool  # whether slopes may jump with the speed, as where a limit sets in
     exponent: float  # n of the damping, which falls as gap^-n
-    begin: Point
+    begin: MotionPoint
     first: Forces  # at the start
     rtol: float
     size: float  # sum of the forces that deliver momentum [N]; those that cancel count too
@@ -129,7 +129,7 @@ class Step(NamedTuple):
     logarithm of the gap [-] and of the speed [m/s].
     """
 
-    stages: tuple[Point, Point, Point]
+    stages: tuple[MotionPoint, MotionPoint, MotionPoint]
     forces: tuple[Forces, Forces, Forces]
     coordinates: tuple[float, float, float]
     exponent: float
@@ -162,12 +162,12 @@ def coordinate(gap: float, s: float, q: float) -> tuple[float, float, float] | N
     return h, first, (1.0 + s) * first / base
 
 
-def step(problem: Problem, dt: float, s: float | None = None) -> Step | None:
+def step(problem: StepProblem, dt: float, s: float | None = None) -> Step | None:
     """Try a step of length `dt` [s]; None if its stages are not found: a shorter one may do.
 
     Parameters
     ----------
-    problem : Problem
+    problem : StepProblem
         What is solved.
     dt : float
         Length of the step [s].
@@ -226,7 +226,7 @@ def _largest(values: Sequence[float]) -> float:
 
 
 def _first_guess(
-    problem: Problem, dt: float, s: float, pulls: Three, floor: float
+    problem: StepProblem, dt: float, s: float, pulls: Three, floor: float
 ) -> tuple[Three, float]:
     """Rates of the stages of the problem that is linear at the start, and how far they lead.
 
@@ -266,7 +266,7 @@ def _stages(gap: float, dt: float, s: float, rates: Three) -> list[_Stage] | Non
     return found
 
 
-def _line(problem: Problem, stage: _Stage, forces: Forces, pull: float) -> _Line:
+def _line(problem: StepProblem, stage: _Stage, forces: Forces, pull: float) -> _Line:
     """Net force on the mass at a stage, with its slopes."""
     _, gap, speed, by_q, swing = stage
     by_gap = -problem.stiffness - forces.static_by_gap - forces.viscous_by_gap
@@ -322,7 +322,7 @@ def _momentum(mass: float, dt: float, scale: float, lines: Sequence[_Line]) -> f
 
 
 def _finished(
-    problem: Problem,
+    problem: StepProblem,
     dt: float,
     s: float,
     rates: Three,
@@ -335,7 +335,11 @@ def _finished(
     if stages is None:
         return None
     (q1, h1, v1, _, _), (q2, h2, v2, _, _), (q3, h3, v3, _, _) = stages
-    points = Point(t0 + _C1 * dt, h1, v1), Point(t0 + _C2 * dt, h2, v2), Point(t0 + dt, h3, v3)
+    points = (
+        MotionPoint(t0 + _C1 * dt, h1, v1),
+        MotionPoint(t0 + _C2 * dt, h2, v2),
+        MotionPoint(t0 + dt, h3, v3),
+    )
     f1, f2, f3 = (_moved(*move) for move in zip(last[1], last[0], stages, strict=True))
     # (gamma0/dt - J) err = f(start) + sum(e_i z_i)/dt in the unknowns (q, v); q = 0 at the start.
     by_gap = -problem.stiffness - first.static_by_gap - first.viscous_by_gap
@@ -365,7 +369,7 @@ def _finished(
 
 
 def _speed_error(
-    problem: Problem, dt: float, gap: float, speeds: Three, end: Forces, a0: float, zv: float
+    problem: StepProblem, dt: float, gap: float, speeds: Three, end: Forces, a0: float, zv: float
 ) -> float:
     """Error of the speed at the end of a step [m/s]: the smaller of two estimates, each safe.
 
@@ -392,7 +396,7 @@ def _speed_error(
 
 
 def _lag_error(
-    problem: Problem, dt: float, acceleration: float, speed: float, end: Forces
+    problem: StepProblem, dt: float, acceleration: float, speed: float, end: Forces
 ) -> float:
     """Error of a speed [m/s] by that of the acceleration at the end of a step [m/s2].
 
@@ -410,7 +414,7 @@ def _lag_error(
     return problem.mass / damping * abs(acceleration - led) - 5.0 * lag * lag / abs(speed)
 
 
-def _held(problem: Problem, dt: float, end: Forces) -> float:
+def _held(problem: StepProblem, dt: float, end: Forces) -> float:
     """How much an error is reduced by the estimate and by the film at the end of a step [-]."""
     return GAMMA + dt * max(end.viscous_by_speed, 0.0) / (_RISING * problem.mass)
 
@@ -431,7 +435,7 @@ def _moved(forces: Forces, before: _Stage, after: _Stage) -> Forces:
     return Forces(static + static_by_gap * dh, static_by_gap, viscous, by_gap, by_speed, limit)
 
 
-def _net_near(problem: Problem, pull: float, gap: float, speed: float) -> float:
+def _net_near(problem: StepProblem, pull: float, gap: float, speed: float) -> float:
     """Net force near the start [N]: by the slopes there, unless it is too far off for them."""
     (_, h0, v0), first = problem.begin, problem.first
     dh, dv = gap - h0, speed - v0
@@ -444,7 +448,7 @@ def _net_near(problem: Problem, pull: float, gap: float, speed: float) -> float:
     return problem.net(pull, gap, first) - resists
 
 
-def relative_error(problem: Problem, taken: Step, length: float, missed: float = 0.0) -> float:
+def relative_error(problem: StepProblem, taken: Step, length: float, missed: float = 0.0) -> float:
     """Error of a step over its tolerance: of the gap, and of the momentum delivered so far.
 
     Measured against the momentum of the mass alone, a transient of length m/c would have to be
@@ -463,7 +467,7 @@ def relative_error(problem: Problem, taken: Step, length: float, missed: float =
     return max(taken.gap_error, wrong / momentum, of_speed, of_impulse, kept) / problem.rtol
 
 
-def _impulse_error(problem: Problem, taken: Step, length: float) -> float:
+def _impulse_error(problem: StepProblem, taken: Step, length: float) -> float:
     """Error of the viscous impulse over what it is so far [-].
 
     A heavy mass crosses the film as if there were none: that impulse is no part of its momentum.
@@ -479,7 +483,7 @@ def _impulse_error(problem: Problem, taken: Step, length: float) -> float:
     return wrong / (_held(problem, length, taken.forces[2]) * (problem.taken + grown + least))
 
 
-def against_halves(problem: Problem, taken: Step, length: float) -> Step | None:
+def against_halves(problem: StepProblem, taken: Step, length: float) -> Step | None:
     """Step with its errors found from the same in two halves; None if a half cannot be solved.
 
     For a step in which a limit sets in or ceases: no estimate sees where the slope of the force

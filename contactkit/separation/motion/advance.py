@@ -19,9 +19,9 @@ from ..cavity.state import FULL, Phase
 from ..integrator.dense_output import peak, work
 from ..integrator.radau import (
     Forces,
-    Point,
-    Problem,
+    MotionPoint,
     Step,
+    StepProblem,
     against_halves,
     relative_error,
     step,
@@ -125,7 +125,7 @@ class Traced(NamedTuple):
     """
 
     state: MotionState
-    problem: Problem | None = None
+    problem: StepProblem | None = None
     taken: Step | None = None
     length: float = 0.0
     event: float | None = None
@@ -182,7 +182,7 @@ def _added(impulses: Mapping[str, float], more: Mapping[str, float]) -> Mapping[
     return {**impulses, **{name: impulses.get(name, 0.0) + more[name] for name in more}}
 
 
-def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -> Problem:
+def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -> StepProblem:
     """Pose the step from a state, with a film or, where nothing is left of it, without one."""
     loading, mass = plan.scene.imposed_force, moving_mass(plan)
     gap, speed, rtol = state.gap, state.speed, plan.accuracy.time_rtol
@@ -195,7 +195,7 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
     crossing = gap / (state.step or 1e-6)
     reference = max(abs(speed), crossing)  # of a damping that follows the speed
     damping = film.damping(gap, reference) if film is not None else 0.0
-    return Problem(
+    return StepProblem(
         mass=mass,
         pull=pull,
         stiffness=loading.stiffness,
@@ -203,7 +203,7 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
         forces=forces,
         has_limits=film is not None and not film.is_smooth,
         exponent=film.exponent(gap, reference) if film is not None else 0.0,
-        begin=Point(state.time, gap, speed),
+        begin=MotionPoint(state.time, gap, speed),
         first=first,
         rtol=rtol if cavity is None else cavity.law.time_rtol(rtol),
         size=size,
@@ -231,14 +231,14 @@ def moving_mass(plan: Plan) -> float:
     return 1e-14 * given * (given / pull) / (loading.final_gap - loading.initial_gap)
 
 
-def _is_at_rest(problem: Problem) -> bool:
+def _is_at_rest(problem: StepProblem) -> bool:
     """Whether a moving mass on which no force acts is as good as at rest."""
     reach = problem.first.viscous_by_speed * problem.begin.gap
     return 0.0 < abs(problem.begin.speed) * problem.mass < _AT_REST * reach
 
 
-def _expecting(problem: Problem, force: float) -> Problem:
-    """Measure errors against a force [N] that is still to come.
+def _expecting(problem: StepProblem, force: float) -> StepProblem:
+    """Scale the error control by a force [N] before the pull has risen to it.
 
     At the foot of a ramp nothing acts yet, and a stiff film would be followed through its
     transient, which late in a run is shorter than the time can tell.
@@ -249,7 +249,7 @@ def _expecting(problem: Problem, force: float) -> Problem:
 
 
 def _stepped(
-    plan: Plan, film: Film | None, state: MotionState, problem: Problem, end: float
+    plan: Plan, film: Film | None, state: MotionState, problem: StepProblem, end: float
 ) -> Traced:
     """State after the longest step that meets the tolerance, or the first event inside it."""
     left = end - state.time
@@ -308,7 +308,7 @@ def _stepped(
     return Traced(state, problem, taken, length, event, is_last)
 
 
-def _first_length(problem: Problem, left: float) -> float:
+def _first_length(problem: StepProblem, left: float) -> float:
     """Time [s] in which inertia alone would open a thousandth of the gap; a first guess."""
     (time, gap, speed), first = problem.begin, problem.first
     acceleration = abs(problem.net(problem.pull(time), gap, first)) / problem.mass
@@ -326,7 +326,9 @@ def _no_step(state: MotionState, rtol: float) -> ConvergenceError:
     return ConvergenceError(f"no step of time can be taken from {where}; {cure}", state)
 
 
-def _error(plan: Plan, state: MotionState, problem: Problem, taken: Step, length: float) -> float:
+def _error(
+    plan: Plan, state: MotionState, problem: StepProblem, taken: Step, length: float
+) -> float:
     """Error of a step over its tolerance, with what the estimate inside the step cannot see."""
     missed = _missed_impulse(problem, length)
     error = relative_error(problem, taken, length, missed)
@@ -342,7 +344,7 @@ def _error(plan: Plan, state: MotionState, problem: Problem, taken: Step, length
     return _TOO_LONG if seen is None else max(error, relative_error(problem, seen, length))
 
 
-def _missed_impulse(problem: Problem, length: float) -> float:
+def _missed_impulse(problem: StepProblem, length: float) -> float:
     """What the nodes of a step miss of the impulse of the pull [N.s], against Simpson's rule.
 
     A stiff film hides a ramp of the pull from the estimates of gap and speed. A pull that is
@@ -357,7 +359,7 @@ def _missed_impulse(problem: Problem, length: float) -> float:
     return length * (seen - (first + 4.0 * middle + last) / 6.0)
 
 
-def _step_to_gap(problem: Problem, taken: Step, length: float, gap: float) -> EventStep[Step]:
+def _step_to_gap(problem: StepProblem, taken: Step, length: float, gap: float) -> EventStep[Step]:
     """Step that ends at a gap."""
     rising = gap > problem.begin.gap
 
@@ -379,13 +381,15 @@ def _impulses(film: Film | None, taken: Step, length: float) -> dict[str, float]
     return {name: b1 * one + b2 * two + b3 * three for name, one, two, three in each}
 
 
-def _work(problem: Problem, taken: Step) -> float:
+def _work(problem: StepProblem, taken: Step) -> float:
     """Work that the viscous force dissipates in a step [J]."""
     viscous = [forces.viscous for forces in taken.forces]
     return work(problem.begin, taken, problem.first.viscous, viscous)
 
 
-def _peak(state: MotionState, problem: Problem, taken: Step, length: float) -> tuple[float, float]:
+def _peak(
+    state: MotionState, problem: StepProblem, taken: Step, length: float
+) -> tuple[float, float]:
     """Highest force of film and solids so far [N], and its time [s]."""
     first = problem.first.static + problem.first.viscous
     totals = [forces.static + forces.viscous for forces in taken.forces]

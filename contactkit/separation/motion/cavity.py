@@ -13,7 +13,7 @@ from ..cavity.stages import CavityForce
 from ..cavity.state import Cavity, Phase
 from ..effects.base import LimitKind
 from ..film import Film
-from ..integrator.radau import Forces, Memory, Problem, Step, step
+from ..integrator.radau import Forces, Memory, Step, StepProblem, step
 
 __all__ = ["CavityFilm", "after", "cavity_film", "cut_at_event", "cut_before_step"]
 
@@ -84,7 +84,7 @@ def cut_before_step(film: Film | None, cavity: Cavity, place: _ONE) -> Cavity | 
 
 
 def cut_at_event(
-    problem: Problem, law: Cavitation, cavity: Cavity, taken: Step, length: float
+    problem: StepProblem, law: Cavitation, cavity: Cavity, taken: Step, length: float
 ) -> EventStep[Step] | None:
     """Step that ends at the first event of a cavity; None if there is none in it.
 

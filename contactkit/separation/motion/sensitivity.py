@@ -24,9 +24,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...errors import ConvergenceError, NotSimulatedError
+from ...numerics.events import step_to_event
 from ...numerics.radau_tableau import NODES, STAGES, WEIGHTS
 from ..integrator.dense_output import peak
-from ..integrator.radau import Point, Problem, Step, coordinate
+from ..integrator.radau import Forces, MotionPoint, Step, StepProblem, coordinate, step
 from .advance import Traced, moving_mass, traced_step
 from .events import closed_gap
 from .state import acting_film, start
@@ -49,6 +50,11 @@ __all__ = ["MotionSlopes", "Variation", "motion_slopes"]
 _STEP = 1e-5
 # Step of the speed of a mass at rest, over that at which the film balances the other forces.
 _REST = 1e-3
+
+
+# Rate of the force at its maximum, over that at the start of the step: what is left of it changes
+# the maximum by its square.
+_FLAT = 1e-6
 
 
 class Variation(NamedTuple):
@@ -88,6 +94,11 @@ class _Stage(NamedTuple):
         """Slopes of the forces (l, p) where gap and speed have those given (p,)."""
         return self.by_parameter + np.outer(self.by_gap, gap) + np.outer(self.by_speed, speed)
 
+    def rate(self, solved: _Solved) -> float:
+        """Rate of the sum of the forces at the end of a step over its length [N/s]."""
+        by_gap, by_speed = solved.rates
+        return float(self.by_gap.sum() * by_gap + self.by_speed.sum() * by_speed)
+
 
 class _Tangent(NamedTuple):
     """Slopes of a point of the motion over every parameter (p,)."""
@@ -98,11 +109,15 @@ class _Tangent(NamedTuple):
 
 
 class _Solved(NamedTuple):
-    """Slopes of the stages (3, p) and of the length of the step (p,)."""
+    """Slopes of the stages (3, p) and of the length of the step (p,).
+
+    `rates` are those of gap and speed at the end over the length of the step.
+    """
 
     gap: Array
     speed: Array
     length: Array
+    rates: tuple[float, float]
 
 
 def motion_slopes(
@@ -205,7 +220,7 @@ class _Motion:
         stages = self._stages(film, before, (problem, taken), traced.event, marks)
         solved = self._solved((problem, taken, traced.length), stages, marks, traced)
         self._add_impulses(film, stages, solved, traced.length)
-        self._look_for_peak(film, (problem, taken), stages, solved)
+        self._look_for_peak(film, before, traced, stages, solved)
         time = self.tangent.time + solved.length
         gap = solved.gap[2] if marks is None else marks[0]
         self.tangent = _Tangent(time, gap, solved.speed[2])
@@ -234,7 +249,7 @@ class _Motion:
         self,
         film: Film | None,
         state: MotionState,
-        step: tuple[Problem, Step],
+        step: tuple[StepProblem, Step],
         event: float | None,
         marks: tuple[Array, list[list[float]]] | None,
     ) -> list[_Stage]:
@@ -252,7 +267,7 @@ class _Motion:
         self,
         film: Film | None,
         state: MotionState,
-        point: Point,
+        point: MotionPoint,
         scale: float,
         begin: float | None,
         marks: tuple[Array, list[list[float]]] | None,
@@ -282,7 +297,7 @@ class _Motion:
 
     def _solved(
         self,
-        step: tuple[Problem, Step, float],
+        step: tuple[StepProblem, Step, float],
         stages: list[_Stage],
         marks: tuple[Array, list[list[float]]] | None,
         traced: Traced,
@@ -326,10 +341,11 @@ class _Motion:
             of_gap[:, :n] + np.outer(of_gap[:, n], length),
             of_speed[:, :n] + np.outer(of_speed[:, n], length),
             length,
+            (float(of_gap[2, n]), float(of_speed[2, n])),
         )
 
     def _driven(
-        self, problem: Problem, stages: list[_Stage], at: tuple[Array, Array], dt: float
+        self, problem: StepProblem, stages: list[_Stage], at: tuple[Array, Array], dt: float
     ) -> Array:
         """Slopes (3, p) of the net force at a gap and a speed: pull, spring, film, its time."""
         times, gaps = at
@@ -362,28 +378,74 @@ class _Motion:
     def _look_for_peak(
         self,
         film: Film | None,
-        step: tuple[Problem, Step],
+        before: MotionState,
+        traced: Traced,
         stages: list[_Stage],
         solved: _Solved,
     ) -> None:
-        """Note the highest force, as the motion does; its time does not change its slope."""
-        problem, taken = step
+        """Note the highest force and its slopes, which its time does not change."""
+        problem, taken = traced.problem, traced.taken
+        assert problem is not None
+        assert taken is not None
         ends = [
             one.along(solved.gap[i], solved.speed[i]).sum(axis=0) for i, one in enumerate(stages)
         ]
         if self.end is None or self.end[0] is not film:
-            stage = self._stage(film, self.state, problem.begin, problem.scale, None, None)
+            stage = self._stage(film, before, problem.begin, problem.scale, None, None)
             begun = stage.along(self.tangent.gap, self.tangent.speed).sum(axis=0)
         else:
             begun = self.end[1]
         self.end = film, ends[2]
+        inside = self._inside_peak(film, before, traced, stages[2].rate(solved))
+        if inside is not None:
+            self._note_peak(*inside)
+            return
         first = problem.first.static + problem.first.viscous
         highest = peak(first, [one.static + one.viscous for one in taken.forces])
-        if highest.value > self.peak:
-            weights = _lagrange(highest.where)
-            rows = zip(weights, (begun, *ends), strict=True)
-            self.peak = highest.value
-            self.peak_slopes = sum((w * row for w, row in rows), np.zeros_like(begun))
+        weights = _lagrange(highest.where)
+        rows = zip(weights, (begun, *ends), strict=True)
+        slopes = sum((w * row for w, row in rows), np.zeros_like(begun))
+        self._note_peak(highest.value, slopes)
+
+    def _note_peak(self, value: float, slopes: Array) -> None:
+        if value > self.peak:
+            self.peak, self.peak_slopes = value, slopes
+
+    def _inside_peak(
+        self, film: Film | None, before: MotionState, traced: Traced, last: float
+    ) -> tuple[float, Array] | None:
+        """Maximum of the force inside a step, where its rate vanishes, and its slopes.
+
+        At a part of the step that ends there; how the time of the maximum moves changes nothing.
+        The rate is that of the end of a step over its length: that by the equation of motion gives
+        the time to 1e-5 only, where a stiff film magnifies what the tolerance leaves. Without a
+        mass the acceleration at the start is what rounding leaves, and the cubic is taken.
+        """
+        problem, taken = traced.problem, traced.taken
+        assert problem is not None
+        assert taken is not None
+        if film is None or film.is_limited or self.plan.scene.imposed_force.mass is None:
+            return None
+        begin = _rate(problem, problem.begin, problem.first)
+        if not begin > 0.0 > last:
+            return None
+
+        def ended(length: float, one: Step) -> tuple[_Stage, _Solved]:
+            part = traced._replace(taken=one, length=length, is_last=False)
+            stages = self._stages(film, before, (problem, one), None, None)
+            return stages[2], self._solved((problem, one, length), stages, None, part)
+
+        def beyond(one: Step) -> float:
+            stage, solved = ended(one.stages[2].time - problem.begin.time, one)
+            return -stage.rate(solved)
+
+        found = step_to_event(
+            lambda dt: step(problem, dt), beyond, -begin, taken, traced.length, _FLAT * begin
+        )
+        stage, solved = ended(found.length, found.taken)
+        forces = found.taken.forces[2]
+        slopes = stage.along(solved.gap[2], solved.speed[2]).sum(axis=0)
+        return forces.static + forces.viscous, slopes
 
     def found(self) -> MotionSlopes:
         """Return the numbers of the motion and their slopes."""
@@ -401,6 +463,13 @@ class _Motion:
         for name, row in self.impulses.items():
             numbers[name], slopes[name] = state.impulses[name], row
         return MotionSlopes(numbers, slopes, state.n_steps)
+
+
+def _rate(problem: StepProblem, at: MotionPoint, forces: Forces) -> float:
+    """Rate of the forces of film and solids along the motion [N/s]."""
+    acceleration = problem.net(problem.pull(at.time), at.gap, forces) / problem.mass
+    by_gap = forces.static_by_gap + forces.viscous_by_gap
+    return by_gap * at.speed + forces.viscous_by_speed * acceleration
 
 
 def _forces(film: Film | None, gap: float, speed: float) -> Array:

@@ -22,17 +22,25 @@ _STEP = 1e-3
 # Step of a number without unit that is zero, as a contact angle or a Poisson's ratio may be.
 _AT_ZERO = 1e-3
 _CENTRAL = ((-2, 1.0 / 12.0), (-1, -8.0 / 12.0), (1, 8.0 / 12.0), (2, -1.0 / 12.0))
+_COARSE = ((-1, -0.5), (1, 0.5))
 # Of third order, to one side, where the other is refused (a Poisson's ratio of 1/2).
 _BACKWARD = ((-3, -2.0 / 6.0), (-2, 9.0 / 6.0), (-1, -18.0 / 6.0), (0, 11.0 / 6.0))
 _FORWARD = tuple((-place, -weight) for place, weight in _BACKWARD)
 
 
 class Parameter(NamedTuple):
-    """A number of a scene by its path, its value in SI units, and the unit."""
+    """A number of a scene by its path, its value in SI units, and the unit.
+
+    Paths that have one value are one path, with commas between them.
+    """
 
     path: str
     value: float
     unit: str
+
+    def at(self, value: float) -> dict[str, float]:
+        """Another value, by the path of each field."""
+        return dict.fromkeys(map(str.strip, self.path.split(",")), value)
 
 
 class Differences(NamedTuple, Generic[T]):
@@ -41,6 +49,11 @@ class Differences(NamedTuple, Generic[T]):
     prepared: tuple[T, ...]
     weights: tuple[float, ...]
     is_one_sided: bool
+
+    def weighted(self, of: Callable[[T], Any]) -> Any:
+        """Difference of something of the preparations: a number or an array."""
+        pairs = zip(self.prepared, self.weights, strict=True)
+        return sum(weight * of(one) for one, weight in pairs)
 
     def notes(self, path: str) -> tuple[str, ...]:
         """Remark on a slope of one-sided differences, if these are."""
@@ -59,18 +72,29 @@ def parameter(scene: Any, accuracy: Any, path: str) -> Parameter:
     """
     if path == "accuracy" or path.startswith("accuracy."):
         raise DescriptionError("to", path, "be physics of the scene: accuracy has no gradient")
-    value = value_at(scene, accuracy, path)
+    names = [name.strip() for name in path.split(",")]
+    values = [value_at(scene, accuracy, name) for name in names]
+    value = values[0]
     if not isinstance(value, float):
         found = type(value).__name__
         raise DescriptionError("to", path, f"lead to a number that may vary; there is a {found}")
-    (axis,) = axes(scene, accuracy, {path: [value]})
+    if any(one != value for one in values):
+        raise DescriptionError("to", path, "be fields of one value")
+    (axis,) = axes(scene, accuracy, {names[0]: [value]})
     return Parameter(path, value, axis.units[0])
 
 
 def differences(
-    scene: Any, accuracy: Any, given: Parameter, prepare: Callable[[Any], T]
+    scene: Any,
+    accuracy: Any,
+    given: Parameter,
+    prepare: Callable[[Any], T],
+    *,
+    is_coarse: bool = False,
 ) -> Differences[T]:
     """Prepare a scene at values of a parameter around its own.
+
+    A coarse difference takes two values instead of four, and leaves 1e-6 of the slope out.
 
     Raises
     ------
@@ -91,16 +115,17 @@ def differences(
             )
         step = _AT_ZERO
     problem: ContactkitError | None = None
-    for stencil in (_CENTRAL, _BACKWARD, _FORWARD):
+    central = _COARSE if is_coarse else _CENTRAL
+    for stencil in (central, _BACKWARD, _FORWARD):
         try:
             made = tuple(
-                prepare(changed(scene, accuracy, {given.path: given.value + i * step}).scene)
+                prepare(changed(scene, accuracy, given.at(given.value + i * step)).scene)
                 for i, _ in stencil
             )
         except (DescriptionError, PlanError) as error:
             problem = problem or error
             continue
         weights = tuple(weight / step for _, weight in stencil)
-        return Differences(made, weights, stencil is not _CENTRAL)
+        return Differences(made, weights, stencil is not central)
     assert problem is not None
     raise problem

@@ -55,10 +55,7 @@ def separation_gradient(result: SeparationResult, of: str, to: Sequence[str]) ->
     if not isinstance(scene.loading, ImposedForce):
         slopes = [_of_curve(of, one) for one in made]
     elif of in impulses_of_gaps(result.plan) and of not in result.plan.film.impulses():
-        slopes = [
-            sum(w * impulses_of_gaps(p)[of] for p, w in zip(one.prepared, one.weights, strict=True))
-            for one in made
-        ]
+        slopes = [float(one.weighted(lambda p: impulses_of_gaps(p)[of])) for one in made]
     else:
         slopes, n_steps = _of_motion(result, of, made)
     notes = [row.notes(one.path) for one, row in zip(numbers, made, strict=True)]
@@ -91,7 +88,4 @@ def _of_motion(
 
 def _of_curve(of: str, made: Differences[Plan]) -> float:
     """Slope of a number of an imposed motion: closed forms and quadratures, nothing is solved."""
-    found = 0.0
-    for one, weight in zip(made.prepared, made.weights, strict=True):
-        found += weight * simulate(one).scalars()[of][0]
-    return found
+    return float(made.weighted(lambda one: simulate(one).scalars()[of][0]))

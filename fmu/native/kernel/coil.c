@@ -3,6 +3,7 @@
    mean the same bits out, and anything else the tolerance. */
 
 #include "drive.h"
+#include "step_size.h"
 
 #include <float.h>
 #include <math.h>
@@ -59,8 +60,8 @@ static double runge_kutta(const problem *p, double flux, double time, double ste
 
 /* How much longer the next step may be. */
 static double growth(double error) {
-    double by = 0.9 * pow(error > 1e-12 ? error : 1e-12, -0.2);
-    return by < 0.1 ? 0.1 : by > 4.0 ? 4.0 : by;
+    double by = CK_SAFETY * pow(error > 1e-12 ? error : 1e-12, -0.2);
+    return by < CK_SHRINK ? CK_SHRINK : by > 4.0 ? 4.0 : by;
 }
 
 double ck_coil_advance(const ck_coil *coil, double *flux, double gap, double speed, double voltage,

@@ -135,22 +135,26 @@ static const char *read_numbers(FILE *file, ck_data *data, uint64_t *count) {
     return NULL;
 }
 
-/* Read a file; what was allocated stays in `data` for `ck_model_close`, whatever happens. */
-const char *ck_data_read(const char *path, ck_data *data) {
-    FILE *file = open_file(path);
-    uint64_t count = 0;
-    const char *problem;
+/* Make records of `numbers`, which are `data`'s own; the message says what is wrong with them. */
+const char *ck_data_take(ck_data *data, size_t count) {
     ck_reader r;
-    memset(data, 0, sizeof *data);
-    if (!file) return "it cannot be opened";
-    problem = read_numbers(file, data, &count);
-    fclose(file);
-    if (problem) return problem;
     /* a node of a table has four numbers, and there are fewer cells than nodes */
-    data->cells = (ck_cell *)malloc((size_t)(count / 4 + 1) * sizeof(ck_cell));
+    data->cells = (ck_cell *)malloc((count / 4 + 1) * sizeof(ck_cell));
     if (!data->cells) return "there is no memory for it";
     r.next = data->numbers, r.end = data->numbers + count, r.fine = 1;
     r.hints = data->hints, r.cells = data->cells;
     ck_read_contents(&r, &data->contents);
     return r.fine && r.next == r.end && suits(&data->contents) ? NULL : "what it says makes no sense";
+}
+
+/* Read a file; what was allocated stays in `data` for `ck_model_close`, whatever happens. */
+const char *ck_data_read(const char *path, ck_data *data) {
+    FILE *file = open_file(path);
+    uint64_t count = 0;
+    const char *problem;
+    memset(data, 0, sizeof *data);
+    if (!file) return "it cannot be opened";
+    problem = read_numbers(file, data, &count);
+    fclose(file);
+    return problem ? problem : ck_data_take(data, (size_t)count);
 }

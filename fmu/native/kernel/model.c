@@ -34,17 +34,24 @@ int ck_model_discard(ck_model *model, const char *message) {
     return CK_DISCARD;
 }
 
+const char *ck_model_made(ck_model *model) {
+    const ck_contents *contents = &model->data.contents;
+    const char *problem = NULL;
+    if (contents->has_tables && contents->tables.has_grid)
+        problem = ck_grid_open(&model->grid, &contents->tables.grid);
+    if (!problem && contents->has_bodies)
+        problem = ck_deforming_open(&model->deforming, &contents->bodies,
+                                    contents->model == CK_DEFORMING_MASS);
+    return problem;
+}
+
 int ck_model_open(ck_model *model, const char *resources, const char *guid) {
     char path[1024], message[1400];
     const char *problem;
     int length = snprintf(path, sizeof path, "%s/film.bin", resources);
     if (length < 0 || (size_t)length >= sizeof path) problem = "its path is too long";
     else problem = ck_data_read(path, &model->data);
-    if (!problem && model->data.contents.has_tables && model->data.contents.tables.has_grid)
-        problem = ck_grid_open(&model->grid, &model->data.contents.tables.grid);
-    if (!problem && model->data.contents.has_bodies)
-        problem = ck_deforming_open(&model->deforming, &model->data.contents.bodies,
-                                    model->data.contents.model == CK_DEFORMING_MASS);
+    if (!problem) problem = ck_model_made(model);
     if (!problem && strcmp(guid, model->data.guid) != 0)
         problem = "it belongs to an FMU with another GUID";
     if (!problem) {

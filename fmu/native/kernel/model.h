@@ -127,10 +127,12 @@ extern const ck_kind CK_KIND_NAMES;
 
 /* Reading the file (data.c); the message says what is wrong with it, NULL if nothing is. */
 const char *ck_data_read(const char *path, ck_data *data);
+const char *ck_data_take(ck_data *data, size_t count); /* of numbers that are in it already */
 uint64_t ck_checksum(const void *bytes, size_t count);
 
 /* Living: open (0 if it fails), then setup, initialize, step; reset starts anew. */
 int ck_model_open(ck_model *model, const char *resources, const char *guid);
+const char *ck_model_made(ck_model *model); /* after its data, what is made of them; what is wrong */
 void ck_model_close(ck_model *model);
 void ck_model_reset(ck_model *model);
 /* The start, and what the host says besides: NULL where it says nothing. */

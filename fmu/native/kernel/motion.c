@@ -1,6 +1,7 @@
 /* Motion of a mass held by a film: adaptive internal steps, cut at events. */
 
 #include "motion.h"
+#include "step_size.h"
 
 #include <math.h>
 #include <string.h>
@@ -149,8 +150,8 @@ static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion
     p->viscous = first->viscous, p->taken = fabs(state->viscous_impulse);
 }
 
-/* Measure errors against a force that is still to come: at the foot of a ramp nothing acts yet, and
-   a stiff film would be followed through its transient. */
+/* Scale the error control by a force before the pull has risen to it: at the foot of a ramp nothing acts
+   yet, and a stiff film would be followed through its transient. */
 static void expect(ck_problem *p, const ck_forces *first, double force) {
     p->size += force;
     if (first->resistance > 0.0) p->scale = ck_larger(p->scale, force / first->resistance);
@@ -487,12 +488,12 @@ static int step_once(const ck_scene *scene, ck_motion *state, const ck_pull *pul
         if (error <= 1.0) break;
         rejected++;
         /* The error estimate is of order 3 (Hairer and Wanner, IV.8): it goes with dt^4. */
-        length *= error < HUGE_VAL ? ck_larger(0.1, 0.9 * pow(error, -0.25)) : 0.25;
+        length *= error < HUGE_VAL ? ck_larger(CK_SHRINK, CK_SAFETY * pow(error, -0.25)) : CK_UNSOLVED;
         if (!(length >= ck_larger(1e-15 * fabs(state->time), NO_TIME)) || rejected > MOST_REJECTED)
             return CK_NO_STEP;
     }
     state->cost += p.cavity ? (int64_t)ck_cavity_cost(acting.law) * rejected : rejected;
-    following = length * ck_smaller(8.0, 0.9 / sqrt(sqrt(ck_larger(error, 1e-12))));
+    following = length * ck_smaller(CK_GROW, CK_SAFETY / sqrt(sqrt(ck_larger(error, 1e-12))));
     if (!rejected && length < state->step) following = ck_larger(following, state->step);
     /* The step is taken first, as if there were no event, and cut afterwards: forces and error estimate
        go on smoothly beyond it, as laws are carried on until the event is applied. */

@@ -236,6 +236,7 @@ def test_a_pulled_map_is_on_the_branch_of_a_separation(periodic, pull):
     assert entering.contact_area < last.contact_area
 
 
+@pytest.mark.slow
 def test_a_chain_of_approaches_is_the_path_of_a_curve():
     plan = rough(STICKY, n=24)
     levels = np.linspace(-3e-9, 0.0, 5)

@@ -133,8 +133,8 @@ def on_stiff_film(end_width=None, *, ratio=100.0, pixels=3.0, periodic=True, loa
 
 
 @pytest.mark.parametrize("periodic", [False, True])
-@pytest.mark.parametrize("load", [0.0, 1.0])
-@pytest.mark.parametrize(("ratio", "pixels"), [(100.0, 3.0), (800.0, 1.5)])
+@pytest.mark.parametrize("load", quick([0.0, 1.0], 1))
+@pytest.mark.parametrize(("ratio", "pixels"), quick([(100.0, 3.0), (800.0, 1.5)], 0))
 def test_the_steep_end_of_a_law_settles_on_a_stiff_film(ratio, pixels, load, periodic):
     result = on_stiff_film(ratio=ratio, pixels=pixels, periodic=periodic, load=load)
     part = result.of(ck.Adhesion)

@@ -126,7 +126,7 @@ HARDEST = ("very stiff film", False, 2)
 
 @pytest.mark.parametrize(
     ("name", "periodic", "components"),
-    quick(ANY_SOLID, *(i for i, case in enumerate(ANY_SOLID) if case != HARDEST)),
+    quick(ANY_SOLID, *(i for i, case in enumerate(ANY_SOLID) if i % 3 == 0 and case != HARDEST)),
 )
 def test_any_solid_converges_along_a_path(name, periodic, components):
     solids = SOLIDS[name]

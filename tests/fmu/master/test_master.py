@@ -40,7 +40,7 @@ def monolithic(case, **changes):
     return state
 
 
-@pytest.mark.parametrize("name", ["A", "B", "D", "E"])
+@pytest.mark.parametrize("name", quick(["A", "B", "D", "E"], 0, 2))
 @pytest.mark.parametrize("tolerance", quick([1e-2, 1e-3, 1e-4], 1))
 def test_the_release_cases_are_met(film, release_cases, name, tolerance):
     case, values = release_cases[name]["case"], release_cases[name]["values"]
@@ -79,7 +79,7 @@ OTHERS = {
 }
 
 
-@pytest.mark.parametrize("changes", quick(OTHERS.values(), 0, 2, 3, 7, 9, 13), ids=OTHERS)
+@pytest.mark.parametrize("changes", quick(OTHERS.values(), 0, 3, 9, 13), ids=OTHERS)
 def test_a_tolerance_of_a_thousandth_is_met_from_10_nm_to_20_um(film, release_cases, changes):
     case = release_cases["D"]["case"] | changes
     whole = monolithic(case)

@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import pytest
+from selection import quick
 
 pytest.importorskip("pythonfmu")
 fmpy = pytest.importorskip("fmpy")
@@ -67,8 +68,7 @@ def growth(shelf, path, count):
 
 
 @pytest.mark.skipif(not can_guard(), reason="there is no compiler for the guard")
-@pytest.mark.slow
-@pytest.mark.parametrize("count", [200, 2000])
+@pytest.mark.parametrize("count", quick([200, 2000], long=[0]))
 def test_a_python_fmu_keeps_nothing_of_an_instance(shelf, count):
     """pythonfmu alone keeps 5 KiB of each."""
     assert growth(shelf, shelf(build, "valve-drive"), count) < ROOM

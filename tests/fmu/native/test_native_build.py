@@ -10,7 +10,16 @@ import zipfile
 
 import attrs
 import pytest
-from native_scenes import HAS_CC, HERE, SCENES, compile_c, scene, write_sources
+from native_scenes import (
+    HAS_CC,
+    HERE,
+    SANITIZED,
+    SCENES,
+    compile_c,
+    sanitized_kernel,
+    scene,
+    write_sources,
+)
 
 pytest.importorskip("pythonfmu")
 fmpy = pytest.importorskip("fmpy")
@@ -225,16 +234,10 @@ def test_no_misuse_ends_the_host(host, unpacked_film):
 
 @pytest.mark.slow
 @linux_only
-def test_sanitizers_find_nothing(host, unpacked_film, tmp_path):
-    flags = ["-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+def test_sanitizers_find_nothing(host, unpacked_film, shelf, tmp_path):
     sources = write_sources(tmp_path / "sources")
-    try:
-        library = compile_c(
-            sources.glob("*.c"), tmp_path / "checked.so", "-fPIC", "-shared", *flags
-        )
-    except subprocess.CalledProcessError as error:
-        pytest.skip(f"the compiler has no sanitizers: {error.stderr[:200]}")
-    program = compile_c([HERE / "native_host.c"], tmp_path / "host", f"-I{sources}", *flags)
+    library = sanitized_kernel(shelf, sources, 2)
+    program = compile_c([HERE / "native_host.c"], tmp_path / "host", f"-I{sources}", *SANITIZED)
     host("misuse", library=library, program=program)
     host("misuse", library=library, program=program, folder=unpacked_film)
     host("run", "40", "1e-4", "0.02", library=library, program=program)

@@ -51,7 +51,7 @@ def events(host):
     return [entry.message for entry in host.log if entry.category == "logEvents"]
 
 
-@pytest.mark.parametrize("name", quick(PULLED, 0, 1))
+@pytest.mark.parametrize("name", quick(PULLED, long=[0, 1]))
 def test_a_disc_pulled_apart_and_pressed_back_moves_as_in_python(name, native):
     case = CASES[name]
     end, values = 1.02 * case["values"]["t_release"], pulled(case)

@@ -99,22 +99,33 @@ def members(owner, path):
             yield here, value
 
 
+@pytest.fixture(scope="module")
+def reader(shelf):
+    """Folder of the headers of the kernel, and of what reads a file, compiled."""
+
+    def make(folder):
+        write_sources(folder)
+        for name in ("data", "description"):
+            compile_c([folder / f"{name}.c"], folder / f"{name}.o", f"-I{folder}", "-O0", "-c")
+
+    return shelf.folder("kernel reader", make)
+
+
 @pytest.mark.parametrize("model", MODELS)
-def test_c_finds_each_number_by_its_name(model, contents, tmp_path):
+def test_c_finds_each_number_by_its_name(model, contents, reader, tmp_path):
     """A program that prints the members by their names, against the values of Python."""
     found = list(members(contents[model], "c"))
     few = found[:: max(len(found) // 800, 1)] + [one for one in found if "[" not in one[0]]
     text = "".join(f'    printf("%.17g\\n", (double){path});\n' for path, _ in few)
-    folder = write_sources(tmp_path / "sources")
-    (folder / "members.c").write_text(
+    (tmp_path / "members.c").write_text(
         '#include "model.h"\n#include <stdio.h>\n#include <stdlib.h>\n'
         "int main(int count, char **words) {\n    static ck_data data;\n"
         "    const ck_contents *at = &data.contents;\n"
         "    if (count != 2 || ck_data_read(words[1], &data)) return 1;\n"
         f"#define c (*at)\n{text}    free(data.numbers), free(data.cells);\n    return 0;\n}}\n"
     )
-    files = [folder / f"{name}.c" for name in ("members", "data", "description")]
-    program = compile_c(files, tmp_path / "members", f"-I{folder}", "-O0")
+    files = [tmp_path / "members.c", reader / "data.o", reader / "description.o"]
+    program = compile_c(files, tmp_path / "members", f"-I{reader}", "-O0")
     (tmp_path / "film.bin").write_bytes(data_file("g", LAYOUT, contents[model].numbers()))
     said = subprocess.run(
         [str(program), str(tmp_path / "film.bin")], check=True, capture_output=True, text=True

@@ -218,7 +218,7 @@ MOTIONS = {
 }
 
 
-QUICK = ("rewetting", "sphere", "shear", "rough")
+QUICK = ("rewetting", "sphere", "shear")
 
 
 @pytest.mark.parametrize("name", quick(MOTIONS, *map([*MOTIONS].index, QUICK)))

@@ -68,6 +68,7 @@ def test_pull_off_force_over_that_of_rigid_bodies(beta, part, time):
     assert at == pytest.approx(time, rel=0.06)
 
 
+@pytest.mark.slow
 def test_gap_shrinks_while_it_is_pulled():
     """At beta = 10 to 0.670 of its start, the value of 192 elements; no rigid model has it."""
     times = np.linspace(0.8, 0.95, 16)
@@ -96,6 +97,7 @@ def test_slow_bridge_passes_through_its_statics():
         assert pull == pytest.approx(static.force, rel=4e-4)
 
 
+@pytest.mark.slow
 def test_energy_of_a_cycle_is_dissipated():
     """Of work, dissipation and elastic energy, over a cycle that ends where it began."""
     period = 4.0 * GAP / SPEED
@@ -109,6 +111,7 @@ def test_energy_of_a_cycle_is_dissipated():
     assert work == pytest.approx(lost + stored - stored[0], abs=2e-3 * lost[-1])
 
 
+@pytest.mark.slow
 def test_rest_ends_in_the_contact_of_hertz():
     """F = (4/3) E* sqrt(R) (h_c - z)^1.5, without any pressure of the film."""
     beta, cutoff, low = 0.1, 0.3 * GAP, -0.5 * GAP

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from selection import quick
 from wet_maps import CASES, pull_at, pulled, wet_map
 
 from contactkit.lubrication.elastohydrodynamic.drive import Imposed
@@ -88,8 +89,7 @@ SMOOTH = {
 }
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", SMOOTH)
+@pytest.mark.parametrize("name", quick(SMOOTH, long=[0, 2, 3]))
 def test_smooth_cases(name):
     """Force with mass and spring, a layer, cavities, two rupture pressures: cases of rings."""
     case = CASES[name]

@@ -132,7 +132,12 @@ def test_counts_of_iterations(beta):
     counts = track.counts
     assert counts.most_linear <= 20
     assert counts.newton <= 4.0 * counts.stages
-    assert counts.rejected <= 3
+    # The first step is given, 500 times as long as usual, and passes over the transient of bodies
+    # that hardly deform (beta = 1e-3). From there the force bends, and the second step is cut to a
+    # quarter three times (11, 8 and 4 times the bend that is allowed); at beta = 1 once, at 1e3
+    # never. With the usual first step one of 52 steps is rejected at beta = 1e-3, none at the
+    # others. Until steps followed the bend of the force none was, and forces were less exact.
+    assert counts.rejected <= {1e-3: 3, 1.0: 1, 1e3: 0}[beta]
 
 
 def test_counts_with_contact_and_cavities(cycle):

@@ -234,6 +234,23 @@ def test_rough_contact_under_a_pull():
 
 @pytest.mark.slow
 @COARSE
+def test_contacts_in_a_cavity_settle():
+    """They hold what the cut-off holds, whether they are full or not: no reason to change.
+
+    Changing by round-off took up to 19 iterations of Newton on these cells.
+    """
+    loading = ck.PressAndPull(press=3e-4, rest=30.0, speed=1e-5, initial_gap=1e-6, final_gap=3e-6)
+    limit = ck.TensionLimit(strength=1.5e3, cavity_pressure=101325.0 - 1.5e3)
+    found = ran(scene(ck.SolidContact(cutoff=3e-7), limit, loading=loading), 32)
+    both = (found["void_volume"] > 0.0) & (found["contact_area"] > 0.0)
+    assert both.sum() > 4
+    assert found.work.n_evaluations <= 3.6 * 2 * found.work.n_steps
+    assert found.numbers["liquid_error"] < 1e-14
+    assert found.numbers["energy_error"] < 0.01
+
+
+@pytest.mark.slow
+@COARSE
 def test_a_force_releases_a_mass_on_a_spring():
     """Impulse of all forces is the momentum; a weak spring holds the gap."""
     loading = ck.ImposedForce(

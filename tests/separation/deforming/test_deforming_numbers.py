@@ -81,6 +81,7 @@ def test_pressing_traps_a_dimple():
     assert inside < 0.1 * beyond
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:slope of the gap")
 def test_a_rest_too_short_to_drain_warns_with_its_number():
     made = ck.plan(pressed(1e-3, 0.02, ck.SolidContact(cutoff=3e-7)), DRAFT)
@@ -105,6 +106,7 @@ def tip(speed, humidity=0.8, liquid=WATER):
 VAPOUR = "duration over the time in which vapour"
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:tension over")
 def test_a_pull_slower_than_vapour_warns_with_its_number():
     with pytest.warns(ck.ValidityWarning, match=f"{VAPOUR} .* = .*at most 0.1"):
@@ -117,6 +119,7 @@ def test_a_pull_slower_than_vapour_warns_with_its_number():
     assert values[0] == pytest.approx(1e5 * values[1], rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:tension over")
 def test_vapour_of_an_unknown_liquid_is_not_evaluated():
     other = attrs.evolve(WATER, molar_mass=0.046)

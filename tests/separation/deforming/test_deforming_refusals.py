@@ -205,7 +205,7 @@ test_maps = each_refused(
                     ck.Accuracy(grid=64),
                 )
             ),
-            r"Accuracy\.grid = 64 is not read by a SeparationScene",
+            r"Accuracy\.grid = 64 is not read by a SeparationScene with ImposedSpeed",
         ),
     ],
     error=PlanError,

@@ -6,8 +6,10 @@ import pickle
 import attrs
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import contactkit as ck
+from contactkit.separation.deforming.phases import pressing_speed
 
 OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03)
 GEL = ck.Material(name="gel", young_modulus=353553.39 * 0.75, poisson_ratio=0.5)
@@ -68,6 +70,36 @@ def test_stiff_bodies_give_the_rigid_engine():
     assert found["pull"][later] == pytest.approx(expected, rel=1e-3)
 
 
+def test_a_heavy_mass_leaves_as_from_rigid_bodies():
+    """Bodies that hardly deform; the film takes no force until the mass moves."""
+    stiff = attrs.evolve(GEL, young_modulus=1e4 * GEL.young_modulus)
+    force, mass = 1e-3, 0.4
+    loading = ck.ImposedForce(force=force, mass=mass, initial_gap=1e-6, final_gap=4e-6)
+    found = ck.simulate(ck.plan(scene(loading, solid=stiff)))
+
+    def rates(_, state):
+        gap, speed = state
+        edge = gap + RIM**2 / (2.0 * 5e-3)
+        inner = 1.0 / gap - 1.0 / edge - (edge - gap) / edge**2
+        return speed, (force - 6.0 * math.pi * 0.1 * 5e-3**2 * inner * speed) / mass
+
+    def leaves(_, state):
+        return state[0] - 4e-6
+
+    leaves.terminal = True
+    law = solve_ivp(rates, (0.0, 1.0), [1e-6, 0.0], "LSODA", rtol=1e-8, atol=1e-14, events=leaves)
+    assert found.numbers["release_time"] == pytest.approx(law.t_events[0][0], rel=1e-3)
+    assert found.work.n_rejected < 5
+
+
+def test_the_scale_of_a_press_is_the_damping_of_the_face():
+    """Of a round flat 3 pi eta R^4/(2 h^3), by Stefan."""
+    loading = ck.PressAndPull(press=1e-3, rest=1.0, speed=1e-6, initial_gap=1e-6, final_gap=2e-6)
+    flat = attrs.evolve(scene(loading), interface=attrs.evolve(scene().interface, upper=ck.Flat()))
+    damping = 1.5 * math.pi * 0.1 * RIM**4 / 1e-6**3
+    assert pressing_speed(ck.plan(flat)) == pytest.approx(1e-3 / damping, rel=1e-9)
+
+
 @pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 def test_without_elastic_bodies_the_rigid_engine_answers():
     """To the last bit: a scene with solids and without the effect is planned as ever."""
@@ -79,6 +111,7 @@ def test_without_elastic_bodies_the_rigid_engine_answers():
     assert ck.simulate(made)["pull"].tolist() == ck.simulate(plan(rigid))["pull"].tolist()
 
 
+@pytest.mark.slow
 def test_pulling_presses_the_asperities_harder():
     """The film's suction acts on the bodies: contact grows under a net pull."""
     solid = attrs.evolve(GEL, young_modulus=10.0 * GEL.young_modulus)
@@ -95,6 +128,7 @@ def test_pulling_presses_the_asperities_harder():
     assert found["smallest_gap"].min() == pytest.approx(3e-7, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_meniscus_of_given_volume_is_kept():
     meniscus = ck.Meniscus(liquid=OIL, volume=1e-14)
     stiff = ck.Material(young_modulus=2e8, poisson_ratio=0.3)
@@ -116,6 +150,7 @@ def test_a_force_releases_in_time():
     assert np.interp(0.2, found["time"], found["gap"]) == pytest.approx(3.35735e-6, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_film_ruptures_and_says_when():
     limit = ck.TensionLimit(strength=3500.0, cavity_pressure=101325.0 - 1000.0)
     found = ck.simulate(ck.plan(scene(effects=(limit,)), ck.Accuracy(film_rtol=5e-3)))
@@ -139,6 +174,7 @@ def test_files_and_copies(pulled, tmp_path):
         assert [str(one) for one in copy.validity] == [str(one) for one in pulled.validity]
 
 
+@pytest.mark.slow
 def test_a_study_varies_it():
     rough = ck.Accuracy(film_rtol=2e-2)
     study = ck.study(scene(), {"loading.speed": [1e-6, 1e-5]}, rough)

@@ -22,7 +22,7 @@ R = 3.175e-3
 DISC = ck.Flat(radius=R)
 NOTCHED = ck.Flat(planform=ck.Disc(radius=R) - ck.Disc(radius=1e-6, centre=(R, 0.0)))
 PULL = ck.ImposedForce(initial_gap=5e-6, final_gap=25e-6, force=40.0, mass=0.02)
-ROUGHLY = ck.Accuracy(film_rtol=1e-2, points=20, curve_rtol=1e-1)
+ROUGHLY = ck.Accuracy(film_rtol=1e-2, curve_rtol=1e-1)
 AMBIENT = 101_325.0
 
 
@@ -67,11 +67,14 @@ def opened():
     """Opening at a speed, of a disc and of a notched one."""
     loading = ck.ImposedSpeed(speed=0.02, initial_gap=5e-6, final_gap=20e-6)
     return [
-        ck.simulate(ck.plan(scene(face, one_pressure(1e6), loading), ROUGHLY))
+        ck.simulate(
+            ck.plan(scene(face, one_pressure(1e6), loading), attrs.evolve(ROUGHLY, points=20))
+        )
         for face in (DISC, NOTCHED)
     ]
 
 
+@pytest.mark.slow
 def test_forces_at_a_speed_are_those_of_the_round_cavity(opened):
     disc, notched = opened
     gaps = np.geomspace(5e-6, 20e-6, 12)
@@ -83,6 +86,7 @@ def test_forces_at_a_speed_are_those_of_the_round_cavity(opened):
     )
 
 
+@pytest.mark.slow
 def test_a_result_with_a_cavity_is_one_like_any_other(opened, tmp_path):
     _, notched = opened
     notched.save(tmp_path / "notched.npz")
@@ -118,6 +122,7 @@ def test_what_has_cavitated_is_remembered_until_liquid_is_back():
     assert restored_cavity(saved) == state.cavity
 
 
+@pytest.mark.slow
 def test_a_tilted_face_cavitates_where_it_is_thin_and_pulls_less_than_its_area():
     tilted = ck.Flat(planform=ck.Rectangle(length=4e-3, width=3e-3), tilt=(5e-4, 0.0))
     made = ck.plan(scene(tilted, one_pressure(1e6)), attrs.evolve(ROUGHLY, film_rtol=5e-2))

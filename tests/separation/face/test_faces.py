@@ -118,6 +118,7 @@ def test_a_hollow_face_counts_its_gap_from_the_rim():
     assert plan.force(5e-6, 1e-3) == pytest.approx(0.1 * 1e-3 * force, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_holes_and_recesses_by_closed_form_and_by_the_grid():
     """A little off its middle, there is no closed form, and nearly the same force."""
     for made in (

@@ -25,7 +25,7 @@ from ..drive import Drive
 from ..progress import Progress
 from ..step import StepFailedError
 from ..wet_gap import Sets
-from .preconditioner import LocalCompliance, Preconditioner
+from .preconditioner import LocalCompliance
 from .step import MapStepped, step
 from .wet_map import MapFields, WetMap
 
@@ -80,7 +80,7 @@ class MapState(NamedTuple):
 
 
 class Counts(NamedTuple):
-    """Work of a motion: steps, stages, iterations of Newton and of GMRES, factorisations."""
+    """Work of a motion: steps, stages, iterations of Newton and of GMRES."""
 
     steps: int = 0
     rejected: int = 0
@@ -88,7 +88,6 @@ class Counts(NamedTuple):
     newton: int = 0
     linear: int = 0
     most_linear: int = 0
-    factorisations: int = 0
 
 
 class MapTrack(NamedTuple):
@@ -163,7 +162,6 @@ class _Run(Progress[MapState, list[MapStepped]]):
         super().__init__(start, times, control, wet.floor)
         self.cavitating, self.whole = wet, evolve(wet, floor=-math.inf)
         self.local = LocalCompliance(wet)
-        self.factors: Preconditioner | None = None
         self.before: MapState | None = None  # state a step ago, if nothing has jumped since
         self.counts = Counts()
         self.observe: Callable[[MapState], None] | None = None
@@ -261,15 +259,13 @@ class _Run(Progress[MapState, list[MapStepped]]):
     def _stage(
         self, start: MapFields, guess: tuple[MapFields, Sets], time: float, length: float
     ) -> MapStepped:
-        done = step(self.wet, self.local, start, guess, time, length, self.factors)
-        self.factors = done.kept
-        old, work = self.counts, done.work
+        done = step(self.wet, self.local, start, guess, time, length)
+        old = self.counts
         self.counts = old._replace(
             stages=old.stages + 1,
-            newton=old.newton + work.newton,
-            linear=old.linear + sum(work.linear),
-            most_linear=max(old.most_linear, *work.linear),
-            factorisations=old.factorisations + work.factorisations,
+            newton=old.newton + len(done.linear),
+            linear=old.linear + sum(done.linear),
+            most_linear=max(old.most_linear, *done.linear),
         )
         return done
 
@@ -282,7 +278,7 @@ class _Run(Progress[MapState, list[MapStepped]]):
 
         self.before = before
         self.highest = max(self.highest, abs(wet.thrust(end.fields.total)))
-        power = [wet.power(one.fields.pressure, one.flow) for one in solved]
+        power = [one.flow.power(one.fields.pressure) for one in solved]
         pulls = [-wet.thrust(one.fields.total) * one.fields.speed for one in solved]
         work, lost = over_step(pulls), over_step([one[0] for one in power])
         if self.jumps:

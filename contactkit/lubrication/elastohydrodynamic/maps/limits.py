@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ....errors import ConvergenceError
 from ....numerics.blas import one_thread
-from ...reynolds.linear_systems import approximate_factors
+from ...reynolds.linear_systems import factorised
 from ..drive import Imposed
 from ..wet_gap import Sets
 from .preconditioner import LocalCompliance
@@ -38,10 +38,10 @@ def rigid_damping(wet: WetMap, rigid_gap: float) -> float:
     gap = np.maximum(shape, wet.cutoff)
     if not gap.min() > 0.0:
         raise ConvergenceError(f"rigid bodies overlap at a gap of {rigid_gap:g} m")
-    local = LocalCompliance(wet)
     # Where they touch nothing can open, but for its film.
-    solve = approximate_factors(wet.flow(gap).matrix, local.order, in_double=True)
-    return wet.thrust(solve(wet.storage * np.where(shape >= gap, 1.0, 0.0)))
+    solve = factorised(wet.matrix(gap))
+    found = solve(wet.storage * np.where(shape >= gap, 1.0, 0.0))
+    return wet.thrust(found.astype(np.float64))
 
 
 @one_thread()

@@ -200,7 +200,7 @@ class _Record:
         return any(abs(time - one) <= _SAME * one for one in self.keep)
 
     def _on_window(self, values: Sequence[Array]) -> NDArray[Any]:
-        (ny, nx), place = self.wet.window
+        (ny, nx), place = self.wet.sides.window
         found = np.zeros((len(values), ny * nx), np.float32)
         found[:, place] = values
         return found.reshape(len(values), ny, nx)

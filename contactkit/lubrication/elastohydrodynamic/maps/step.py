@@ -12,20 +12,22 @@ tolerance: so liquid is conserved to round-off, and what a step leaves is mended
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.linalg import LinearOperator, gmres
+from scipy.sparse.linalg import LinearOperator, gcrotmk
 
 from ....errors import ConvergenceError
 from ..drive import Driven, Imposed
 from ..step import StepFailedError
 from ..wet_gap import Sets
+from .flow import Flow, FlowSlopes
 from .preconditioner import LocalCompliance, Preconditioner, inertia, preconditioner
-from .wet_map import Flow, MapFields, WetMap
+from .wet_map import MapFields, WetMap
 
-__all__ = ["MapStepped", "Work", "step"]
+__all__ = ["MapStepped", "step"]
 
 Array = NDArray[np.float64]
 
@@ -42,33 +44,24 @@ _DIVERGED = 1e3  # rows of an iterate whose sets are given up
 # Rows at which they then do not: where a force is reversed all that touched has the cut-off but for
 # what the rows leave.
 _SLACK = 10.0
-# Of a linear system: three iterations reach 1e-8; 1e-2 takes four, 1e-5 saves none.
-_LINEAR = 1e-3
+# Least and most of the accuracy of a linear system: three iterations of 1e-3 reach 1e-8; 1e-2 takes
+# four, 1e-5 saves none.
+_LINEAR, _ROUGH = 1e-3, 1e-1
+_AT_ONCE = 2e-4  # what one iteration can be asked for
+_MARGIN = 0.7
 _MOST_LINEAR = 120
-# Iterations beyond which new factors pay: with new ones 3 to 18 are usual.
-_STALE = 12
-_POOR = 30  # iterations beyond which factors in single precision are given up
-_REUSED = 1.5  # ratio of the lengths of two steps up to which factors are kept
+_POOR = 30  # iterations beyond which factors take the place of multigrid
 # A gap may shrink to this part of itself in an iteration, where nothing can touch.
 _LEAST_GAP = 0.1
 
 
-class Work(NamedTuple):
-    """Iterations of a step: of Newton, of GMRES in each of these, and factorisations."""
-
-    newton: int
-    linear: tuple[int, ...]
-    factorisations: int
-
-
 class MapStepped(NamedTuple):
-    """End of a stage, its film, and what it took; `kept` are factors for the next."""
+    """End of a stage, its film, and the iterations of GMRES in each of Newton's."""
 
     fields: MapFields
     sets: Sets
     flow: Flow
-    work: Work
-    kept: Preconditioner
+    linear: tuple[int, ...]
 
 
 def step(
@@ -78,7 +71,6 @@ def step(
     guess: tuple[MapFields, Sets],
     time: float,
     length: float,
-    kept: Preconditioner | None = None,
 ) -> MapStepped:
     """Solve an implicit Euler stage.
 
@@ -96,8 +88,6 @@ def step(
         Time at the end [s].
     length : float
         Length of the stage [s].
-    kept : Preconditioner, optional
-        Factors of an earlier stage, used while they are good.
 
     Raises
     ------
@@ -105,11 +95,8 @@ def step(
         If the iteration does not converge, or a gap closes where nothing can touch.
     """
     newton = _Newton(wet, local, start, guess, time, length)
-    newton.kept = kept
     newton.solve()
-    work = Work(len(newton.linear), tuple(newton.linear), newton.n_factorisations)
-    assert newton.kept is not None
-    return MapStepped(newton.ended(), newton.sets, newton.flow, work, newton.kept)
+    return MapStepped(newton.ended(), newton.sets, newton.flow, tuple(newton.linear))
 
 
 class _Newton:
@@ -131,9 +118,8 @@ class _Newton:
         self.moves = isinstance(wet.drive, Driven)
         if isinstance(wet.drive, Imposed):
             self.rigid_gap = wet.drive.gap(time)
-        self.kept: Preconditioner | None = None
+        self.prepared: Preconditioner | None = None
         self.linear: list[int] = []
-        self.n_factorisations = 0
         self.slack = 0.0
         self.storing = length / wet.storage
         self._settle()
@@ -169,8 +155,8 @@ class _Newton:
             scale = max(moved, _LEAST * least)
             size, self.slack = float(np.abs(rows).max()) / scale, _SLACK * _SOLVED * scale
             is_solved = size < _SOLVED or (size < _STALLED and size > 0.5 * before)
-            settled = not changed and (together or not self._violated(self.slack)[1])
-            if count > 0 and settled and is_solved and self.kept is not None:
+            settled = not changed and (together or not self._violated(strictly=False)[1])
+            if count > 0 and settled and is_solved:
                 return
             if self.moves and together and count > 1 and size > _DIVERGED:
                 # Sets that changed too many cells at once: from the start again, one at a time.
@@ -178,7 +164,7 @@ class _Newton:
                 self._settle()
                 continue
             before = np.inf if changed else size
-            self._correct(rows)
+            self._correct(rows, _SOLVED / max(size, _SOLVED))
         raise StepFailedError(f"not converged: rows of {size:.1e}")
 
     @property
@@ -200,46 +186,45 @@ class _Newton:
         drive = self.wet.drive
         if not isinstance(drive, Driven):
             return np.zeros(0)
-        needed = self._needed_factors()
+        inverse = self._inverse()
         speed = (self.rigid_gap - self.start.rigid_gap) / self.length
         gained = drive.mass * (speed - self.start.speed) / self.length
         spring = drive.stiffness * (drive.spring_end(self.time) - self.rigid_gap)
         force = drive.force(self.time) + spring + self.wet.thrust(self.total)
-        return np.array([(gained - force) * needed.motion / self.wet.cell_area])
+        return np.array([(gained - force) * inverse.motion / self.wet.cell_area])
 
-    def _needed_factors(self) -> Preconditioner:
-        """Factors for the sets of now."""
-        kept = self.kept
-        if kept is not None:
-            same = all(np.array_equal(a, b) for a, b in zip(kept.sets, self.sets, strict=True))
-            ratio = max(kept.length, self.length) / min(kept.length, self.length)
-            if same and ratio < _REUSED and (not self.linear or self.linear[-1] <= _STALE):
-                return kept
+    def _inverse(self) -> Preconditioner:
+        """Approximate inverse for the sets of now."""
         is_poor = bool(self.linear) and self.linear[-1] > _POOR
+        known, is_exact = self.prepared, is_poor
+        if known is not None:
+            same = all(np.array_equal(a, b) for a, b in zip(known.sets, self.sets, strict=True))
+            if same and (known.is_exact or not is_poor):
+                return known
+            is_exact |= known.is_exact
         try:
-            self.kept = preconditioner(
+            self.prepared = preconditioner(
                 self.wet,
                 self.local,
                 self.flow,
                 self.height,
                 self.sets,
                 self.length,
-                in_double=is_poor or (kept is not None and kept.in_double),
+                is_exact=is_exact,
             )
         except ConvergenceError as error:
             raise StepFailedError(str(error)) from error
-        self.n_factorisations += 1
-        return self.kept
+        return self.prepared
 
-    def _correct(self, rows: Array) -> None:
-        inverse = self._needed_factors()
-        found = self._solved(self._product(inverse), rows, inverse)
+    def _correct(self, rows: Array, wanted: float) -> None:
+        inverse = self._inverse()
+        found = self._solved(self._product(inverse), rows, inverse, _accuracy(wanted))
         if not np.isfinite(found).all():
             raise StepFailedError("singular")
-        pressure, total, moved = self._changes(found)
+        pressure, total, moved = self.changes(found)
         scale = 1.0
         if not self.wet.cutoff:
-            change = moved + self.wet.displacement(total)
+            change = moved + self.wet.rough_displacement(total)
             closing = change < 0.0
             room = (1.0 - _LEAST_GAP) * self.gap[closing] / -change[closing]
             scale = min(1.0, float(room.min(initial=1.0)))
@@ -248,57 +233,71 @@ class _Newton:
         self.rigid_gap += scale * moved
         self._settle()
 
-    def _solved(self, apply: _Product, rows: Array, inverse: Preconditioner) -> Array:
-        """Correction by GMRES, preconditioned from the right: it minimises the rows themselves.
+    def _solved(
+        self, apply: _Product, rows: Array, inverse: Preconditioner, accuracy: float
+    ) -> Array:
+        """Correction by GMRES, preconditioned from the right: it minimises the rows themselves."""
+        shape, count = (rows.size, rows.size), len(self.linear)
+        self.linear.append(0)
 
-        From the left, as scipy does it, their norm would be compared with one of another unit.
-        """
-        shape, norms = (rows.size, rows.size), list[float]()
-        solved, _ = gmres(
-            LinearOperator(shape, lambda y: apply(inverse(y.ravel())), dtype=np.float64),
+        def product(x: Array) -> Array:
+            self.linear[count] += 1
+            return apply(x)
+
+        # Without its recycling it is GMRES that keeps what the preconditioner gave: `gmres` would
+        # take a product and an inverse more, a fifth of the time.
+        found, _ = gcrotmk(
+            LinearOperator(shape, product, dtype=np.float64),
             -rows,
-            rtol=_LINEAR,
+            rtol=accuracy,
             atol=0.0,
-            restart=_MOST_LINEAR,
+            m=_MOST_LINEAR,
+            k=0,
             maxiter=1,
-            callback=norms.append,
-            callback_type="pr_norm",
+            M=LinearOperator(shape, inverse, dtype=np.float64),
         )
-        self.linear.append(len(norms))
-        return inverse(solved)
+        if not found.any() and rows.any():
+            raise StepFailedError("singular")
+        return found
 
-    def _changes(self, x: Array) -> tuple[Array, Array, float]:
+    def changes(self, x: Array) -> tuple[Array, Array, float]:
         """Changes of film pressures, of the pressures on the bodies, and of the rigid gap."""
-        n, contact = len(self.gap), self.sets.contact
-        pressure = np.where(self.sets.void, 0.0, x[:n])
-        total = pressure.copy()
-        total[contact] = x[n : n + int(contact.sum())]
+        n, (void, contact) = len(self.gap), self.sets
+        pressure = x[:n]
+        if void.any():
+            pressure = np.where(void, 0.0, pressure)
+        total = pressure
+        if contact.any():
+            total = pressure.copy()
+            total[contact] = x[n : n + int(contact.sum())]
         return pressure, total, float(x[-1]) if self.moves else 0.0
 
     def _product(self, inverse: Preconditioner) -> _Product:
-        slopes = self.wet.flow_slopes(self.flow, self.height, self.pressure)
+        slopes = FlowSlopes(self.flow, self.height, self.pressure)
         return _Product(self, slopes, inverse)
 
-    def _violated(self, slack: float = 0.0) -> tuple[Sets, list[int]]:
-        """Sets that the fields ask for, and the cells that are in others by more than a slack [m].
+    def _violated(self, *, strictly: bool) -> tuple[Sets, list[int]]:
+        """Sets that the fields ask for, and the cells that are in others.
 
-        The slack of pressures is that which moves one cell by as much.
+        Gaps may be a slack off: contacts within a cavity hold what the cut-off holds and have its
+        pressure, and would be filled and emptied by round-off in turn. Pressures may, unless
+        strictly, by what moves one cell by as much.
         """
         wet, sets = self.wet, self.sets
         void, contact = sets
-        less = slack / self.local.of_cell if slack else 0.0
+        less = 0.0 if strictly or not self.slack else self.slack / self.local.of_cell
         if wet.floor > -np.inf:
-            is_full = self.stored >= self.held + slack
+            is_full = self.stored >= self.held + self.slack
             void = np.where(sets.void, ~is_full, self.pressure < wet.floor - less)
         if wet.cutoff:
             is_pressed = self.total > self.pressure - less
-            contact = np.where(sets.contact, is_pressed, self.gap < wet.cutoff - slack)
+            contact = np.where(sets.contact, is_pressed, self.gap < wet.cutoff - self.slack)
         differ = (void != sets.void) | (contact != sets.contact)
         return Sets(void, contact), np.flatnonzero(differ).tolist()
 
     def _update_sets(self, together: bool) -> int:
         """Change the sets where their conditions fail, or in one cell alone; how many did."""
-        new, cells = self._violated(0.0 if together else self.slack)
+        new, cells = self._violated(strictly=together)
         if not cells:
             return 0
         if not together:
@@ -314,24 +313,44 @@ class _Newton:
         return MapFields(self.pressure, self.stored, self.total, self.rigid_gap, speed)
 
 
+def _accuracy(wanted: float) -> float:
+    """Of a linear system, of rows that are to shrink to some part: at once, or in two iterations.
+
+    More at once would be lost in what is not linear.
+    """
+    wanted *= _MARGIN
+    if wanted > _AT_ONCE:
+        return min(wanted, _ROUGH)
+    return max(math.sqrt(wanted), _LINEAR)
+
+
 class _Product:
     """Product of the whole slope matrix with changes of the unknowns."""
 
-    def __init__(self, newton: _Newton, slopes: Any, inverse: Preconditioner) -> None:
+    def __init__(self, newton: _Newton, slopes: FlowSlopes, inverse: Preconditioner) -> None:
         self.newton, self.slopes, self.inverse = newton, slopes, inverse
+        self.has_voids = bool(newton.sets.void.any())
+        self.has_contacts = bool(newton.sets.contact.any())
+        self.follow = bool(newton.follows.all())
 
     def __call__(self, x: Array) -> Array:
         newton, wet = self.newton, self.newton.wet
-        pressure, total, moved = newton._changes(x)
-        opened = moved + wet.rough_displacement(total)
-        sets = newton.sets
-        free = np.where(newton.follows, opened, 0.0)
-        out = newton.flow.matrix @ pressure + self.slopes @ free
-        film = np.where(sets.contact, 0.0, opened) + newton.storing * out
-        parts = [np.where(sets.void, x[: len(film)], film), opened[sets.contact]]
+        pressure, total, moved = newton.changes(x)
+        opened = wet.rough_displacement(total)
+        if newton.moves:
+            opened += moved
+        n, sets = len(opened), newton.sets
+        found = np.empty(len(x))
+        widened = opened if self.follow else np.where(newton.follows, opened, 0.0)
+        film = self.slopes(pressure, widened)
+        film *= newton.storing
+        film += np.where(sets.contact, 0.0, opened) if self.has_contacts else opened
+        found[:n] = np.where(sets.void, x[:n], film) if self.has_voids else film
+        if self.has_contacts:
+            found[n : n + int(sets.contact.sum())] = opened[sets.contact]
         if newton.moves:
             drive = wet.drive
             assert isinstance(drive, Driven)
             force = inertia(drive, newton.length) * moved - wet.thrust(total)
-            parts.append(np.array([force * self.inverse.motion / wet.cell_area]))
-        return np.concatenate(parts)
+            found[-1] = force * self.inverse.motion / wet.cell_area
+        return found

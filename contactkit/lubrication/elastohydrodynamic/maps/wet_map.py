@@ -25,13 +25,14 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from ....errors import DescriptionError
-from ...reynolds.discretisation import assembled, conductances, untied_mesh
+from ...reynolds.discretisation import untied_mesh
 from ...reynolds.face import Face
 from ...reynolds.mesh import Mesh
 from ..drive import Drive
 from ..wet_gap import Sets
+from .flow import Flow, Sides
 
-__all__ = ["Deformation", "Flow", "MapFields", "Rigid", "WetMap", "at_rest"]
+__all__ = ["Deformation", "MapFields", "Rigid", "WetMap", "at_rest"]
 
 Array = NDArray[np.float64]
 
@@ -77,26 +78,6 @@ class MapFields(NamedTuple):
     speed: float
 
 
-class Window(NamedTuple):
-    """Smallest map that holds all cells of film, and the place (flat) of each in it."""
-
-    shape: tuple[int, int]
-    place: NDArray[np.int64]
-
-
-class Flow(NamedTuple):
-    """Film of one gap: flow out of the cells is `matrix @ p - inflow` [m3/s]."""
-
-    matrix: Any
-    inflow: Array
-    inner: Array
-    outer: Array
-
-    def out(self, pressure: Array) -> Array:
-        """Flow out of each cell [m3/s]."""
-        return np.asarray(self.matrix @ pressure - self.inflow)
-
-
 @frozen(eq=False)
 class WetMap:
     """Two bodies with a film on a grid between them.
@@ -122,7 +103,7 @@ class WetMap:
     Raises
     ------
     DescriptionError
-        If the face has pockets.
+        If the face has pockets, or is periodic.
     """
 
     face: Face
@@ -134,7 +115,7 @@ class WetMap:
     cutoff: float = 0.0
     mesh: Mesh = field(init=False, repr=False)
     storage: Array = field(init=False, repr=False)
-    window: Window = field(init=False, repr=False)
+    sides: Sides = field(init=False, repr=False)
 
     @mesh.default
     def _mesh(self) -> Mesh:
@@ -143,15 +124,17 @@ class WetMap:
             raise DescriptionError(
                 "WetMap.face", f"{len(self.face.pockets)} pockets", "have none", hint=cure
             )
+        if any(self.face.periodic):
+            raise DescriptionError("WetMap.face", "periodic", "have a rim on all sides")
         return untied_mesh(self.face)
 
-    @window.default
-    def _window(self) -> Window:
-        """Rows and columns that hold film: no others have a pressure."""
-        rows, columns = np.divmod(self.mesh.loaded, self.face.shape[1])
-        rows, columns = rows - rows.min(), columns - columns.min()
-        shape = int(rows.max()) + 1, int(columns.max()) + 1
-        return Window(shape, np.asarray(rows * shape[1] + columns))
+    @sides.default
+    def _sides(self) -> Sides:
+        known = self.face.__dict__
+        if "_film_sides" not in known:  # of all phases of a motion
+            known["_film_sides"] = Sides(self.face, self.mesh)
+        made: Sides = known["_film_sides"]
+        return made
 
     @storage.default
     def _storage(self) -> Array:
@@ -185,10 +168,9 @@ class WetMap:
         return self._by(self.deformation.rough_displacement, total)
 
     def _by(self, deform: Callable[[Array], Array], total: Array) -> Array:
-        shape, place = self.window
-        pressure = np.zeros(shape)
-        pressure.ravel()[place] = total
-        return deform(pressure).ravel()[place]
+        window = self.sides.window
+        found = deform(window.spread(total).reshape(window.shape))
+        return window.gathered(found.ravel())
 
     def gap(self, now: MapFields) -> Array:
         """Gap of the deformed bodies [m], shape (n,)."""
@@ -222,40 +204,11 @@ class WetMap:
 
     def flow(self, gap: Array) -> Flow:
         """Conductances of a gap."""
-        mesh = self.mesh
-        inner, outer = conductances(mesh, self.on_map(gap**3 / (12.0 * self.viscosity)).ravel())
-        matrix = assembled(mesh, [inner, inner, -inner, -inner, outer])
-        at_rim = mesh.number[mesh.rim.cell]
-        inward = np.bincount(at_rim, weights=outer * self._rim_pressure(), minlength=mesh.size)
-        return Flow(
-            matrix, inward.astype(float), np.asarray(inner, float), np.asarray(outer, float)
-        )
+        return self.sides.flow(gap, self.viscosity)
 
-    def flow_slopes(self, flow: Flow, gap: Array, pressure: Array) -> Any:
-        """Derivative of the flow out of each cell by the gaps, sparse [m2/s]."""
-        mesh = self.mesh
-        i, j = mesh.number[mesh.sides.low], mesh.number[mesh.sides.high]
-        at_rim = mesh.number[mesh.rim.cell]
-        cube = gap**3
-        # Of the harmonic mean of the two conductivities: that of the smaller gap counts more.
-        by_low = 3.0 * flow.inner * cube[j] / ((cube[i] + cube[j]) * gap[i])
-        by_high = 3.0 * flow.inner * cube[i] / ((cube[i] + cube[j]) * gap[j])
-        drop = pressure[i] - pressure[j]
-        rim = 3.0 * flow.outer / gap[at_rim] * (pressure[at_rim] - self._rim_pressure())
-        values = [by_low * drop, -by_high * drop, by_high * drop, -by_low * drop, rim]
-        return assembled(mesh, values)
-
-    def power(self, pressure: Array, flow: Flow) -> tuple[float, float]:
-        """Power that the film dissipates [W], and flow of liquid in through the rim [m3/s]."""
-        mesh = self.mesh
-        low, high = mesh.number[mesh.sides.low], mesh.number[mesh.sides.high]
-        drop = pressure[low] - pressure[high]
-        at_rim = self._rim_pressure() - pressure[mesh.number[mesh.rim.cell]]
-        dissipated = float(flow.inner @ drop**2 + flow.outer @ at_rim**2)
-        return dissipated, float(flow.outer @ at_rim)
-
-    def _rim_pressure(self) -> Array:
-        return np.asarray(self.face.pressure.ravel()[self.mesh.rim.beyond], float)
+    def matrix(self, gap: Array) -> Any:
+        """Flow out of the cells by their pressures, sparse [m3/(Pa.s)]."""
+        return self.sides.matrix(gap, self.viscosity)
 
 
 def at_rest(wet: WetMap, rigid_gap: float) -> MapFields:

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 __all__ = ["MapFilm", "check_initial_gap"]
 
-# Of a run, per cell: factors of the film (200 on 128 x 128 cells, 260 on 256 x 256), directions of
-# GMRES, padded transforms, maps that are kept. Measured: 0.18 GB more on 256 x 256 cells.
+# Of a run, per cell: directions of GMRES, padded transforms, grids of the film, maps that are kept.
+# Measured with factors of the film, which took 260 of these: 0.18 GB more on 256 x 256 cells.
 _BYTES = 3000.0
 _SQUARE = 1e-6  # sides of a cell that differ by less
 _STEPS = 3.0  # over those in which the rigid gap opens alone, of pulls of rough spheres

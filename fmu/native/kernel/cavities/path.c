@@ -2,6 +2,7 @@
    contactkit/separation/cavity/path.py. */
 
 #include "cavity.h"
+#include "step_size.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -65,7 +66,7 @@ static double accepted(ck_path *path, attempt *one, double length, double *error
         *error = HUGE_VAL;
         if (go(one, length)) *error = whole ? 0.0 : one->hollow.error / path->rtol;
         if (*error <= 1.0) return length;
-        length *= *error < HUGE_VAL ? fmax(0.1, 0.9 * pow(*error, -1.0 / 3.0)) : 0.25;
+        length *= *error < HUGE_VAL ? fmax(CK_SHRINK, CK_SAFETY * pow(*error, -1.0 / 3.0)) : CK_UNSOLVED;
     }
     return 0.0;
 }
@@ -84,7 +85,7 @@ int ck_path_next(ck_path *path, double *impulse, int *full) {
     planned = path->planned > left ? path->planned : 0.0; /* no shorter for being cut off */
     length = accepted(path, &one, fmin(path->planned, left), &error);
     if (length == 0.0) return CK_PATH_LOST;
-    grown = error <= pow(0.9 / 8.0, 3.0) ? 8.0 : 0.9 * pow(error, -1.0 / 3.0);
+    grown = error <= pow(CK_SAFETY / CK_GROW, 3.0) ? CK_GROW : CK_SAFETY * pow(error, -1.0 / 3.0);
     path->planned = fmax(length * grown, planned);
     judge(&one);
     if (one.ahead > 0.0) {

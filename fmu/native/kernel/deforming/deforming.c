@@ -5,6 +5,7 @@
    speed that are set, which are those at the end of the step. */
 
 #include "model.h"
+#include "step_size.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,11 +16,9 @@
 #define FIRST 1e-5
 /* Mass over c^2/k of the film and the spring: 1/LIGHTEST^2 of fmu/native/deforming.py, less round-off. */
 #define LIGHTEST 3.9999
-#define SAFETY 0.85 /* these as in elastohydrodynamic/follow.py and numerics/step_size.py */
+#define SAFETY 0.85 /* these two as in elastohydrodynamic/follow.py, where the reasons are */
 #define GROW 5.0
-#define SHRINK 0.1
-#define UNSOLVED 0.25
-#define LOCATED 1e-6       /* of a step: where in it the film ruptures; these two as in follow.py */
+#define LOCATED 1e-6       /* of a step: where in it the film ruptures; this and the next as in follow.py */
 #define AFTER_RUPTURE 1e-3 /* step after a rupture over that before it */
 #define NO_LENGTH 1e-12 /* of the step of the host: an internal step this short does not help any more */
 
@@ -153,7 +152,8 @@ static int step_once(ck_model *model, ck_attempted *a, double left, double whole
         if (solved && now->jumped) error = 0.0; /* no estimate holds where pressures jump */
         if (solved && (error <= 1.0 || a->length <= FIRST * whole)) break;
         if (a->length <= NO_LENGTH * whole) return NO_STEP;
-        a->length *= solved ? ck_larger(SHRINK, SAFETY * pow(error, -1.0 / d->method->order)) : UNSOLVED;
+        a->length *= solved ? ck_larger(CK_SHRINK, SAFETY * pow(error, -1.0 / d->method->order))
+                            : CK_UNSOLVED;
         if (!solved) a->before = 0.0;
     }
     if (waits_for(model) > 0.0 &&

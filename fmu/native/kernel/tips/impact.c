@@ -2,6 +2,7 @@
    models/micromirror/tip_impact.py, operation by operation. */
 
 #include "root.h"
+#include "step_size.h"
 #include "tip.h"
 
 #include <math.h>
@@ -11,6 +12,8 @@
 #define PARTS 30
 #define SAME 1e-12          /* depths closer than this, relatively, are one */
 #define SAME_FRACTION 1e-13 /* of a step: times closer than this are one */
+#define GROW 5.0            /* as in tip_impact.py, as what follows */
+#define UNSOLVED 0.1
 
 /* Depth, speed, impulse of the spring, and work of the damping. */
 enum { DEPTH, SPEED, IMPULSE, DAMPED, UNKNOWNS };
@@ -106,11 +109,11 @@ static double accepted(const ck_site *site, const ck_impact *here, double length
         if (swift != 0.0) ratio = larger(fabs(error[SPEED]) / swift, fabs(error[DEPTH]) / far) / rtol;
         if (isnan(error[SPEED] + error[DEPTH])) ratio = HUGE_VAL;
         if (ratio <= 1.0) {
-            double grown = ratio <= pow(0.18, 5.0) ? 5.0 : 0.9 * pow(ratio, -0.2);
+            double grown = ratio <= pow(CK_SAFETY / GROW, 5.0) ? GROW : CK_SAFETY * pow(ratio, -0.2);
             *following = length * grown;
             return length;
         }
-        length *= ratio < HUGE_VAL ? larger(0.1, 0.9 * pow(ratio, -0.2)) : 0.1;
+        length *= ratio < HUGE_VAL ? larger(CK_SHRINK, CK_SAFETY * pow(ratio, -0.2)) : UNSOLVED;
     }
     return 0.0;
 }
