@@ -58,9 +58,9 @@ answer by many modes, not by one.
 # What n rings leave of the force, over its largest in a pull: 10/n^2 at beta = 0.1, 11.6/n^2 at 10,
 # with a rim at 8 widths of the pressure; beyond, rings are as many per decade.
 _LEFT, _NEAR_RIM = 12.0, 8.0
-# What cavities add, with 44 to 100 rings: 1.2e-3 of the force at most, where they open at their own
+# What cavities add, with 32 to 112 rings: 1.2e-3 of the force at most, where they open at their own
 # pressure. A liquid of more strength ruptures at an instant that rings have to some parts in 100,
-# and its force falls at once: 60 rings have the largest to 0.035, at beta of 0.1 to 10.
+# and its force falls at once: 60 rings have the largest to 0.035, 32 to 0.07, beta 0.1 to 10.
 _CAVITIES, _RUPTURES = 1.5e-3, 0.035
 # Error if nothing is asked for: 60 rings, and 1 ms an internal step.
 _USUAL = 3.4e-3
