@@ -38,6 +38,7 @@ __all__ = [
     "PocketSides",
     "PowerCurve",
     "Rate",
+    "RingCavity",
     "Rings",
     "Scale",
     "Series",
@@ -244,6 +245,14 @@ class Matrix(Record):
 
 
 @frozen(kw_only=True)
+class RingCavity(Record):
+    """Cavities of a film on rings, by the unit of its pressures."""
+
+    tension: float = positive("of a cavity, ambient less its pressure [-]")
+    strength: float = positive("tension at which the whole film ruptures [-]")
+
+
+@frozen(kw_only=True)
 class Rings(Record):
     """A film on rings and the displacement under it, by units of radii, gaps and pressures."""
 
@@ -253,6 +262,7 @@ class Rings(Record):
     relief: tuple[float, ...] = column("gap of the undeformed bodies less that on the axis [-]")
     area: tuple[float, ...] = column("integral of its hat times the radius [-]")
     compliance: Matrix = part(Matrix, "displacement at a node by the pressure at another [-]")
+    cavity: RingCavity | None = maybe(RingCavity, "of a film that ruptures")
 
 
 @frozen(kw_only=True)

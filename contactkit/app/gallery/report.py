@@ -17,6 +17,7 @@ _TITLES = {
     "chapter_2": "Chapter 2: contact of rough layered surfaces",
     "chapter_3": "Chapter 3: separation of wetted surfaces",
     "measured": "Against programs and measurements of others",
+    "deforming": "Films between bodies that deform, by a second method",
     "future_work": "Future work of the source, as far as it is done",
 }
 

@@ -20,7 +20,7 @@ from .page import Page
 __all__ = ["Script", "chosen", "digest", "load", "scripts"]
 
 _PACKAGE = "contactkit.gallery"
-CHAPTERS = ("chapter_2", "chapter_3", "measured", "future_work")
+CHAPTERS = ("chapter_2", "chapter_3", "measured", "deforming", "future_work")
 """Folders of scripts, in reading order."""
 
 

@@ -71,7 +71,7 @@ typedef struct {
     double gap, speed, force, axis, impulse, work, peak, highest, before, next;
     double by_gap, by_speed; /* derivatives of the force over the last step of the host */
     double release_time, releases;
-    int armed, padding;
+    int armed, ruptured, jumped, padding; /* the film has cavities below its strength; its pressures jump now */
 } ck_deformed;
 
 /* Everything that changes, in one piece without pointers. `stale`: the parameters were set since

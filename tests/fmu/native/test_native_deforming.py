@@ -146,6 +146,65 @@ def test_rings_are_the_engine_on_the_same_mesh(made, final, force):
     assert host.get("W") == pytest.approx(table["dissipated_energy"][-1], rel=1e-5)
 
 
+def cavitating(beta, strength, cavity, final=4e-6, **more):
+    """A pull whose film ruptures at a tension and leaves cavities of another."""
+    limit = ck.TensionLimit(strength=strength, cavity_pressure=101_325.0 - cavity)
+    return scene(beta, final, effects=(limit,), **more)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("beta", "strength", "cavity"), [(0.1, 4e3, 1e3), (1.0, 1e3, 1e3), (1.0, 3e3, 800.0)]
+)
+def test_cavities_are_those_of_the_engine_on_the_same_mesh(beta, strength, cavity, force):
+    """Also where the tensile strength exceeds the tension of a cavity."""
+    made = cavitating(beta, strength, cavity)
+    host, times = force(made, film_rtol=COARSE, rtol=1e-6), np.linspace(0.0, 0.3, 41)
+    table = engine(made, exactness_of(made, COARSE).rings, times)
+    found = pulled(host, times)
+    assert table["void_volume"].max() > 5e-15
+    # Without cavities the force is another.
+    assert table["largest_tension"].max() < 1.001 * strength
+    assert found == pytest.approx(table["pull"], abs=2e-6 * table["pull"].max())
+    assert host.get("h_axis") == pytest.approx(table["centre_gap"][-1], rel=1e-6)
+    assert host.get("W") == pytest.approx(table["dissipated_energy"][-1], rel=1e-6)
+
+
+@pytest.mark.slow
+def test_a_state_with_cavities_is_saved_and_restored(force):
+    """In the cavity, and before the film ruptures, bits are repeated; so is the rupture."""
+    host = force(cavitating(1.0, 3e3, 800.0), film_rtol=12.0 / 24.0**2)
+    slave, times = host.slave, np.linspace(0.0, 0.3, 31)
+    kept, forces = [], []
+    for begin, end in pairwise(times):
+        kept.append(slave.serializeFMUstate(slave.getFMUState()))
+        host.set(h=GAP + SPEED * end, v=SPEED)
+        assert host.step(end - begin) == OK
+        forces.append(host.get("F"))
+    drop = int(np.argmin(np.diff(forces)))
+    assert forces[drop + 1] < 0.97 * forces[drop]  # it has ruptured
+    for k in (drop - 2, drop + 1, drop + 3):
+        slave.setFMUState(slave.deSerializeFMUstate(kept[k]))
+        for j in range(k, min(k + 4, len(forces))):
+            host.set(h=GAP + SPEED * times[j + 1], v=SPEED)
+            assert host.step(times[j + 1] - times[j], times[j]) == OK
+            assert host.get("F") == forces[j]
+
+
+@pytest.mark.slow
+def test_a_mass_that_ruptures_a_film(shelf, open_fmu):
+    """Released sooner than from a film without cavities, when the scene is."""
+    pull = damping(GAP) * SPEED
+    made = cavitating(0.5, 1e3, 1e3, force=pull, mass=1e-2)
+    host = open_fmu(shelf(build_native, made, **ONE)).start(F_ext=pull)
+    found = ck.simulate(ck.plan(made))
+    while not host.get("n_release"):
+        assert host.step(1e-3) == OK, host.errors
+    assert host.get("t_release") == pytest.approx(found.numbers["release_time"], rel=1e-2)
+    whole = ck.simulate(ck.plan(scene(0.5, 4e-6, force=pull, mass=1e-2)))
+    assert host.get("t_release") < 0.9 * whole.numbers["release_time"]
+
+
 @pytest.mark.slow
 def test_both_are_as_exact_as_they_say(force):
     """Against the engine, extrapolated from three meshes."""
@@ -302,7 +361,6 @@ def test_a_release_is_an_event_of_fmi_3(shelf):
 def test_what_no_fmu_holds_is_refused_by_name(tmp_path):
     out = tmp_path / "film.fmu"
     refused = {
-        "no FMU holds TensionLimit beside ElasticBodies": scene(0.1, effects=(ck.TensionLimit(),)),
         "no FMU holds SolidContact beside": scene(0.1, effects=(ck.SolidContact(cutoff=1e-7),)),
         r"no FMU holds beta = 20: .* ck\.simulate": scene(20.0),
     }
@@ -328,6 +386,14 @@ def test_the_film_that_is_taken_and_its_error():
     assert soft.rings == 60
     assert "film on 60 rings for beta = 0.1: the force is right to 0.0033 of" in soft.text
     assert exactness_of(scene(0.01), 5e-3).film == "rings"
+    # A spring has no cavities.
+    ruptured = exactness_of(cavitating(0.01, 1e3, 1e3))
+    assert ruptured.film == "rings"
+    assert "beta = 0.01, with cavities: the force is right to 0.0048 of" in ruptured.text
+    assert (
+        "where it ruptures: the force is right to 0.035"
+        in exactness_of(cavitating(1.0, 3e3, 800.0)).text
+    )
     # The pull is an input, and may be 0 in the scene: any may come.
     still = scene(0.01, force=0.0, mass=1e-3)
     assert exactness_of(still).beta is None

@@ -47,6 +47,7 @@ static long divide(ck_deforming *d, double *block) {
     long n = d->n, m = d->size, s = d->method->stages, k;
     double *next = block;
     d->values = take(&next, d->count), d->kept = take(&next, d->count);
+    d->voids = d->values + m * (1 + s), d->pressure = take(&next, n);
     d->share = take(&next, 3 * n), d->h = take(&next, n + 1);
     d->flow = take(&next, n), d->left = take(&next, n), d->outer = take(&next, n);
     d->stages = take(&next, s * m), d->right = take(&next, s * m);
@@ -58,10 +59,10 @@ static long divide(ck_deforming *d, double *block) {
         l->stored = take(&next, m), l->rest = take(&next, m);
         l->stored_slopes = take(&next, m * m), l->rest_slopes = take(&next, m * m);
         l->stored_by_gap = take(&next, n), l->rest_by_gap = take(&next, n);
-        l->rest_by_speed = take(&next, n), l->force_slopes = take(&next, n);
+        l->rest_by_speed = take(&next, n), l->force_slopes = take(&next, n), l->voids = take(&next, n);
     }
     d->first = d->levels[0];
-    d->first.stored = d->start_stored, d->first.rest = d->start_rest;
+    d->first.stored = d->start_stored, d->first.rest = d->start_rest, d->first.voids = d->voids;
     return (long)(next - block);
 }
 
@@ -76,7 +77,8 @@ const char *ck_deforming_open(ck_deforming *d, const ck_bodies *record, int has_
     d->method = record->has_rings ? &TWO : &THREE;
     d->n = record->has_rings ? record->rings.n_nodes - 1 : 2;
     d->size = d->n + (has_mass ? 2 : 0);
-    d->count = d->size * (1 + d->method->stages);
+    d->count = d->size * (1 + d->method->stages) + d->n;
+    d->floor = -HUGE_VAL;
     d->block = (double *)calloc((size_t)divide(d, none), sizeof(double));
     d->exchanged = (int *)calloc((size_t)(d->size * (d->method->stages + 1)), sizeof(int));
     if (!d->block || !d->exchanged) return "there is no memory for it";
@@ -167,26 +169,31 @@ void ck_level_of(ck_deforming *d, const double *y, double given, double rate, ck
     if (d->has_mass) mass_rows(d, y, given, l, slopes);
 }
 
-double ck_film_axis(const ck_deforming *d, const double *y, double gap) {
+double ck_film_axis(ck_deforming *d, const double *y, double gap) {
     return d->record->has_rings ? ck_rings_axis(d, y, gap) : y[0];
 }
 
-double ck_film_moved(const ck_deforming *d, const double *y, double gap, const double *dy, double dgap,
-                     double *closing) {
-    if (d->record->has_rings) return ck_rings_moved(d, y, gap, dy, dgap, closing);
+double ck_film_moved(ck_deforming *d, const double *y, double gap, const double *dy, double dgap,
+                     const double *voids, double *closing) {
+    if (d->record->has_rings) return ck_rings_moved(d, y, gap, dy, dgap, voids, closing);
     *closing = -dy[0] / y[0];
     return fabs(dy[0] / y[0]);
 }
 
 /* Change of unknowns over their size; one below 1e-6 of the unit moves nothing. */
-double ck_film_change(const ck_deforming *d, const double *y, const double *dy) {
-    double size = 1e-6, change = 0.0;
+double ck_film_change(const ck_deforming *d, const double *y, const double *dy, const double *voids) {
+    double size = 1e-6, change = 0.0, liquid = 0.0;
     int first = d->record->has_rings ? 0 : 1, i;
     for (i = first; i < d->n; i++) {
+        if (voids[i] != 0.0) { /* its liquid over a gap of 1 */
+            if (!(fabs(dy[i]) <= liquid)) liquid = fabs(dy[i]);
+            continue;
+        }
         if (fabs(y[i]) > size) size = fabs(y[i]);
         if (!(fabs(dy[i]) <= change)) change = fabs(dy[i]);
     }
     change /= size;
+    if (!(liquid <= change)) change = liquid;
     if (first && !(fabs(dy[0] / y[0]) <= change)) change = fabs(dy[0] / y[0]);
     return change;
 }

@@ -18,6 +18,8 @@
 #define LIGHTEST 3.9999
 #define SAFETY 0.85 /* these two as in elastohydrodynamic/follow.py, where the reasons are */
 #define GROW 5.0
+#define LOCATED 1e-6       /* of a step: where in it the film ruptures; this and the next as in follow.py */
+#define AFTER_RUPTURE 1e-3 /* step after a rupture over that before it */
 #define NO_LENGTH 1e-12 /* of the step of the host: an internal step this short does not help any more */
 
 enum { SOLVED = 0, NO_STEP, TOO_MANY, TOO_SOFT };
@@ -69,7 +71,7 @@ static double softness(const ck_deforming *d, double force, double axis) {
 static void accept(ck_model *model, ck_attempted *a, double error) {
     ck_deforming *d = film_of(model);
     ck_deformed *now = &model->state.deformed;
-    int s = d->method->stages, m = d->size, k;
+    int s = d->method->stages, m = d->size, changed = now->jumped, any = 0, k;
     const ck_level *end = &d->levels[s - 1];
     double speed, gap = ck_course_at(&a->course, a->time + a->length, &speed), grown;
     for (k = 0; k < s; k++) {
@@ -80,13 +82,59 @@ static void accept(ck_model *model, ck_attempted *a, double error) {
     }
     memcpy(d->values, d->stages + (long)(s - 1) * m, (size_t)m * sizeof(double));
     memcpy(d->values + m, d->stages, (size_t)(s * m) * sizeof(double));
+    /* Steps are extrapolated while cavities stay, as in elastohydrodynamic/follow.py. */
+    for (k = 0; k < d->n; k++) {
+        changed |= d->voids[k] != end->voids[k], any |= end->voids[k] != 0.0;
+        d->voids[k] = end->voids[k];
+    }
+    if (!any) now->ruptured = 0;
     if (d->has_mass) gap = d->values[d->n], speed = d->values[d->n + 1];
     now->gap = gap * d->gap, now->speed = speed * d->gap / d->time;
     now->force = end->force * d->force, now->axis = ck_film_axis(d, d->values, gap) * d->gap;
     if (fabs(now->force) > now->highest) now->highest = fabs(now->force);
-    now->before = a->length;
+    now->before = changed ? 0.0 : a->length, now->jumped = 0;
     grown = error > 0.0 ? SAFETY * pow(error, -1.0 / d->method->order) : GROW;
     now->next = a->length * ck_smaller(grown, GROW);
+}
+
+/* Tension at which a whole film ruptures, if it exceeds that of a cavity; 0: cavities open by themselves. */
+static double waits_for(const ck_model *model) {
+    const ck_rings *rings = &model->deforming.record->rings;
+    if (!model->deforming.record->has_rings || !rings->has_cavity || model->state.deformed.ruptured) return 0.0;
+    return rings->cavity.strength > rings->cavity.tension ? rings->cavity.strength : 0.0;
+}
+
+/* Solve a step in which no cavity opens while the film waits for its rupture. */
+static int solve(ck_model *model, const ck_attempted *a, double *error) {
+    ck_deforming *d = film_of(model);
+    const ck_rings *rings = &d->record->rings;
+    int cavitates = d->record->has_rings && rings->has_cavity && !(waits_for(model) > 0.0);
+    d->floor = cavitates ? -rings->cavity.tension : -HUGE_VAL;
+    return ck_stages_solve(d, a, error);
+}
+
+/* Step up to the instant at which the tension reaches the strength: there cavities open. */
+static int rupture_in(ck_model *model, ck_attempted *a, int *count) {
+    ck_deforming *d = film_of(model);
+    ck_deformed *now = &model->state.deformed;
+    double strength = waits_for(model), whole = a->length, low = 0.0, high = 1.0, error;
+    const double *end = d->stages + (long)(d->method->stages - 1) * d->size;
+    int solved = 1;
+    if (ck_rings_lowest(d, d->values) < -strength) high = 0.0;
+    while (solved && high - low > LOCATED) {
+        double share = 0.5 * (low + high);
+        a->length = share * whole;
+        solved = solve(model, a, &error), ++*count;
+        if (solved && ck_rings_lowest(d, end) < -strength) high = share;
+        else low = share;
+    }
+    a->length = high * whole;
+    if (high > LOCATED) {
+        if (!solved || !solve(model, a, &error)) return 0;
+        accept(model, a, 1.0);
+    } else a->length = 0.0;
+    now->ruptured = 1, now->jumped = 1, now->before = 0.0, now->next = AFTER_RUPTURE * whole;
+    return 1;
 }
 
 /* One internal step, shortened until its error is small. */
@@ -99,14 +147,18 @@ static int step_once(ck_model *model, ck_attempted *a, double left, double whole
     a->before = now->before, a->highest = now->highest / d->force;
     if (d->has_mass) a->highest = ck_larger(a->highest, fabs(ck_course_at(&a->course, a->time, &error)));
     for (;; first = 0) {
-        int solved = ck_stages_solve(d, a, &error);
+        int solved = solve(model, a, &error);
         if (++*count > most) return TOO_MANY;
+        if (solved && now->jumped) error = 0.0; /* no estimate holds where pressures jump */
         if (solved && (error <= 1.0 || a->length <= FIRST * whole)) break;
         if (a->length <= NO_LENGTH * whole) return NO_STEP;
         a->length *= solved ? ck_larger(CK_SHRINK, SAFETY * pow(error, -1.0 / d->method->order))
                             : CK_UNSOLVED;
         if (!solved) a->before = 0.0;
     }
+    if (waits_for(model) > 0.0 &&
+        ck_rings_lowest(d, d->stages + (long)(d->method->stages - 1) * d->size) < -waits_for(model))
+        return rupture_in(model, a, count) ? SOLVED : NO_STEP;
     accept(model, a, error);
     /* A step that was cut short by the end of the span is no reason against the one that was planned. */
     if (first && now->next < planned && error <= 1.0) now->next = planned;
@@ -144,7 +196,7 @@ static int go(ck_model *model, ck_attempted *a, double time, double length) {
         if (trouble) break;
         if (d->has_mass)
             note_release(model, gap, speed, time + a->time * d->time, a->length * d->time);
-        else if (!ck_stages_slopes(d, a, whole)) return NO_STEP;
+        else if (a->length > 0.0 && !ck_stages_slopes(d, a, whole)) return NO_STEP;
         if (!(softness(d, now->force, now->axis) <= model->state.values[CK_BETA_MAX])) trouble = TOO_SOFT;
     }
     now->before *= d->time, now->next *= d->time;

@@ -2,7 +2,7 @@
 
    Everything is in units of the file: the gap and the force of its record, and the time in which a film
    of that gap relaxes against the stiffness of the bodies. As in
-   contactkit/lubrication/elastohydrodynamic, without cavities, contact and a rim that moves. */
+   contactkit/lubrication/elastohydrodynamic, without contact and a rim that moves. */
 
 #ifndef CK_DEFORMING_H
 #define CK_DEFORMING_H
@@ -30,6 +30,7 @@ typedef struct {
     double *stored_by_gap, *rest_by_gap, *rest_by_speed, *force_slopes;
     double force, power; /* power: what the film dissipates */
     int closed;          /* a gap is not above 0: there is no film */
+    double *voids;       /* by unknowns of the film: 1 in a cavity, whose unknown is its liquid per area */
 } ck_level;
 
 /* Room for a film and its steps, taken once. Unknowns are those of the film, then the gap of the
@@ -43,7 +44,10 @@ typedef struct ck_deforming {
     double mass, spring, relaxed, rtol; /* in these units; gap at which the spring is relaxed */
     double damping;           /* of the table at that gap */
     double *values;           /* the state: unknowns, and stages of the last step */
+    double *voids;            /* of the state, a part of it: cavities, as in a level */
     double *kept;             /* that before the step of the host */
+    double floor;             /* pressure of cavities; -HUGE_VAL: none opens */
+    double *pressure;         /* of a level */
     double *share;            /* of rings: radius over 12 lengths at the points of an element */
     double *stages, *right, *whole, *square, *start_stored, *start_rest;
     double *by[2], *held[2], force_by[2]; /* derivatives by gap and speed that the host sets: of stages, of
@@ -70,15 +74,18 @@ void ck_level_of(ck_deforming *d, const double *y, double gap, double speed, ck_
 void ck_series_level(ck_deforming *d, const double *y, double speed, ck_level *level, int slopes);
 void ck_rings_level(ck_deforming *d, const double *y, double gap, ck_level *level, int slopes);
 void ck_rings_share(ck_deforming *d); /* fills `share`, which stays as it is */
-double ck_rings_axis(const ck_deforming *d, const double *y, double gap);
-double ck_rings_moved(const ck_deforming *d, const double *y, double gap, const double *dy, double dgap,
-                      double *closing);
+double ck_rings_axis(ck_deforming *d, const double *y, double gap);
+double ck_rings_moved(ck_deforming *d, const double *y, double gap, const double *dy, double dgap,
+                      const double *voids, double *closing);
+/* Cavities where their conditions fail, at unknowns of a gap: 1 if one opens or closes. */
+int ck_rings_rupture(ck_deforming *d, double *y, double gap, double *voids);
+double ck_rings_lowest(const ck_deforming *d, const double *y);
 /* Gap of the film on the axis; largest change of a gap over itself, and the largest fall; change of unknowns
    over their size. */
-double ck_film_axis(const ck_deforming *d, const double *y, double gap);
-double ck_film_moved(const ck_deforming *d, const double *y, double gap, const double *dy, double dgap,
-                     double *closing);
-double ck_film_change(const ck_deforming *d, const double *y, const double *dy);
+double ck_film_axis(ck_deforming *d, const double *y, double gap);
+double ck_film_moved(ck_deforming *d, const double *y, double gap, const double *dy, double dgap,
+                     const double *voids, double *closing);
+double ck_film_change(const ck_deforming *d, const double *y, const double *dy, const double *voids);
 
 /* A step from a time since that of the host began (stages.c): its stages are in `stages`, `error` is that of
    its end over the tolerance. 0 if it cannot be solved. */

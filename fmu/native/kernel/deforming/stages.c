@@ -94,12 +94,13 @@ static double gap_at(const ck_deforming *d, const ck_attempted *a, int k) {
 }
 
 /* Part of a correction that keeps gaps open. */
-static double part_of(const ck_deforming *d, const ck_attempted *a) {
+static double part_of(ck_deforming *d, const ck_attempted *a) {
     double part = 1.0, closing;
     int k;
     for (k = 0; k < d->method->stages; k++) {
         const double *change = d->right + (long)k * d->size;
-        ck_film_moved(d, stage(d, k), gap_at(d, a, k), change, d->has_mass ? change[d->n] : 0.0, &closing);
+        ck_film_moved(d, stage(d, k), gap_at(d, a, k), change, d->has_mass ? change[d->n] : 0.0,
+                      d->levels[k].voids, &closing);
         if (closing * part > 1.0 - LEAST_GAP) part = (1.0 - LEAST_GAP) / closing;
     }
     return part;
@@ -111,7 +112,7 @@ static double size_of(const ck_deforming *d) {
     int k;
     for (k = 0; k < d->method->stages; k++) {
         const double *change = d->right + (long)k * d->size;
-        double one = ck_film_change(d, stage(d, k), change);
+        double one = ck_film_change(d, stage(d, k), change, d->levels[k].voids);
         if (d->has_mass && !(fabs(change[d->n]) <= one)) one = fabs(change[d->n]);
         if (!(one <= size)) size = one;
     }
@@ -137,10 +138,19 @@ static int estimate(ck_deforming *d, const ck_attempted *a, double *error) {
     scale = fabs(end->force) > a->highest ? fabs(end->force) : a->highest;
     if (!(scale > NO_FORCE)) scale = NO_FORCE;
     moved = ck_film_moved(d, stage(d, s - 1), gap_at(d, a, s - 1), found, d->has_mass ? found[d->n] : 0.0,
-                          &ignored);
+                          end->voids, &ignored);
     force = fabs(force) / scale;
     *error = (force > moved ? force : moved) / d->rtol;
     return *error < HUGE_VAL;
+}
+
+/* Change cavities where their conditions fail; 1 if one did. */
+static int rupture(ck_deforming *d, const ck_attempted *a) {
+    int k, changed = 0;
+    if (!d->record->has_rings) return 0;
+    for (k = 0; k < d->method->stages; k++)
+        changed |= ck_rings_rupture(d, stage(d, k), gap_at(d, a, k), d->levels[k].voids);
+    return changed;
 }
 
 int ck_stages_solve(ck_deforming *d, const ck_attempted *a, double *error) {
@@ -148,6 +158,7 @@ int ck_stages_solve(ck_deforming *d, const ck_attempted *a, double *error) {
     double before = HUGE_VAL, rate, given = ck_course_at(&a->course, a->time, &rate);
     ck_level_of(d, d->values, given, rate, &d->first, 0);
     guess(d, a);
+    for (i = 0; i < s; i++) memcpy(d->levels[i].voids, d->voids, (size_t)d->n * sizeof(double));
     for (iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
         double part, size;
         if (!evaluate(d, a, !known)) return 0;
@@ -158,7 +169,7 @@ int ck_stages_solve(ck_deforming *d, const ck_attempted *a, double *error) {
         part = part_of(d, a), size = size_of(d);
         if (!(part >= NO_PART && size < HUGE_VAL)) return 0;
         for (i = 0; i < s * m; i++) d->stages[i] += part * d->right[i];
-        if (part < 1.0) {
+        if (rupture(d, a) || part < 1.0) {
             known = 0, before = HUGE_VAL;
             continue;
         }
