@@ -18,9 +18,9 @@ __all__ = ["page"]
 @options.file(".html", "Page to write.", required=True)
 @options.overwrite
 def page(scene: str, settings: tuple[str, ...], out: Path, overwrite: bool) -> None:
-    """Write a live page: one HTML file with sliders, which computes in the browser.
+    """Write a live page that computes in a browser.
 
-    SCENE is the opening of a film or a bridge by a force on a mass, or at a speed. The page runs
+    It is one HTML file with sliders. SCENE is the opening of a film or a bridge by a force on a mass, or at a speed. The page runs
     the C kernel of the native FMUs as WebAssembly and needs no network; building it needs the extra
     native.
     """

@@ -139,7 +139,7 @@ def completions(capsys, monkeypatch, *words):
 @pytest.mark.parametrize(
     ("words", "offered"),
     [
-        (["p"], ["plan"]),
+        (["p"], ["plan", "page"]),
         (["run", "fuel"], ["fuel-injector", "fuel"]),  # the last: a file that begins so
         (["run", "--over"], ["--overwrite"]),
         (["list", "li"], ["liquids"]),

@@ -88,6 +88,7 @@ def test_gaps_that_contradict_each_other_are_not_baked_in(name, start, said, tmp
 
 def test_a_force_too_rough_for_a_table_is_named():
     from contactkit.fmu.native import film as native_film
+    from contactkit.fmu.native.tables import tabulate
     from contactkit.separation.effects.meniscus import MeniscusForce
 
     class Rough:
@@ -95,7 +96,7 @@ def test_a_force_too_rough_for_a_table_is_named():
         known_to = float("inf")
 
     common = native_film._Common(
-        ck.plan(scene(volume=DROP)), native_film.FreeLiquid(0.0, 0.0), 1e-8
+        ck.plan(scene(volume=DROP)), native_film.FreeLiquid(0.0, 0.0), 1e-8, tabulate
     )
     rough = lambda gap: 1.0 + 1e-3 * (hash(gap) % 1000)  # noqa: E731
     with pytest.raises(ck.ConvergenceError, match=r"MeniscusForce has no native form.*without"):

@@ -109,7 +109,7 @@ def _results() -> Reader:
     slid = ck.SlidingScene(
         interface=film, loading=ck.Sliding(gap=1e-6, speed=1e-3), effects=(ck.CouetteForce(),)
     )
-    coarse = ck.Accuracy(time_rtol=1e-4, points=20)
+    coarse = ck.Accuracy(time_rtol=1e-4)
     made = {
         "contact": ck.solve(ck.plan(pressed, ck.Accuracy(grid=8))),
         "separation": ck.simulate(ck.plan(opened, coarse)),

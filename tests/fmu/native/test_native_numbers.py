@@ -97,7 +97,13 @@ SHARED = {
     ),
     "deforming/deforming.c": (
         "contactkit/lubrication/elastohydrodynamic/follow.py",
-        {"FIRST": "Control.first", "SAFETY": "StepSize(safety)", "GROW": "StepSize(grow)"},
+        {
+            "FIRST": "Control.first",
+            "LOCATED": "located",
+            "AFTER_RUPTURE": "after_rupture",
+            "SAFETY": "StepSize(safety)",
+            "GROW": "StepSize(grow)",
+        },
     ),
     "tips/impact.c": (
         "models/micromirror/tip_impact.py",
