@@ -20,9 +20,9 @@ __all__ = ["page"]
 def page(scene: str, settings: tuple[str, ...], out: Path, overwrite: bool) -> None:
     """Write a live page that computes in a browser.
 
-    It is one HTML file with sliders. SCENE is the opening of a film or a bridge by a force on a mass, or at a speed. The page runs
-    the C kernel of the native FMUs as WebAssembly and needs no network; building it needs the extra
-    native.
+    It is one HTML file with sliders. SCENE is the opening of a film or a bridge by a force on a
+    mass, or at a speed. The page runs the C kernel of the native FMUs as WebAssembly and needs no
+    network; building it needs the extra native.
     """
     from ..app.live_page import page_text
     from ..app.output import check_file, enter
