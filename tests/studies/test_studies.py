@@ -394,8 +394,8 @@ def test_chains_are_spread_and_cut():
 # Interruption -------------------------------------------------------------------------------
 
 SLOW = """
-import signal, sys, time
-sys.path.insert(0, sys.argv[1])
+import os, signal, sys, time
+sys.path[:0] = sys.argv[1].split(os.pathsep)
 import test_studies
 from contactkit.contact import prepared
 from contactkit.studies import run as study_run
@@ -426,7 +426,7 @@ def whole(store, workers=1):
 def test_an_interrupted_study_goes_on_where_it_stopped(tmp_path, workers, how):
     script, store = tmp_path / "slow.py", tmp_path / "store"
     script.write_text(SLOW, encoding="utf-8")
-    here = str(Path(__file__).parent)
+    here = os.pathsep.join(map(str, Path(__file__).parents[:2]))
     running = subprocess.Popen(
         [sys.executable, str(script), here, str(store), str(workers)],
         stderr=subprocess.DEVNULL,
