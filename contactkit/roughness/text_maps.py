@@ -56,11 +56,11 @@ class Header(NamedTuple):
 
 
 class _Layout(NamedTuple):
-    """How the lines of a file are read: `delimiter` None is blanks; `header` lines come first."""
+    """How lines are read: `delimiter` None is blanks; `has_words`: above them, not in comments."""
 
     delimiter: str | None
     has_decimal_commas: bool
-    header: int
+    has_words: bool
 
 
 def read_header(file: Path) -> Header:
@@ -111,7 +111,7 @@ def read_matrix(file: Path, *, holes: bool = False) -> Array:
         If a line has another number of columns than the first, or is not numeric.
     """
     layout = _layout(file, tabs=holes)
-    is_plain = not (holes or layout.has_decimal_commas or layout.header)
+    is_plain = not (holes or layout.has_decimal_commas or layout.has_words)
     source = file if is_plain else _numbers(file, layout, holes=holes)
     try:
         found = np.loadtxt(source, delimiter=layout.delimiter, ndmin=2, encoding="utf-8-sig")
@@ -213,19 +213,18 @@ def _data_lines(file: Path) -> Iterator[tuple[int, str]]:
 
 def _layout(file: Path, *, tabs: bool) -> _Layout:
     """Delimiter and decimal sign, from the first data line; `tabs`: between them is a cell."""
-    number, first = next(_data_lines(file), (0, ""))
+    _, first = next(_data_lines(file), (0, ""))
     if not first.strip():
         raise DescriptionError("HeightMap.heights", "none", f"be in {file.name}")
-    has_words = any(not line.startswith("#") and line for line in _header_lines(file))
-    header = number - 1 if has_words else 0
+    has_words = any(line and not line.startswith("#") for line in _header_lines(file))
     if ";" in first:
-        return _Layout(";", "," in first, header)
+        return _Layout(";", "," in first, has_words)
     words = first.split()
     if len(words) > 1 and all(map(_DECIMAL_COMMA.fullmatch, words)):
-        return _Layout(None, True, header)
+        return _Layout(None, True, has_words)
     if "\t" in first:
-        return _Layout("\t" if tabs else None, "," in first, header)
-    return _Layout("," if "," in first else None, False, header)
+        return _Layout("\t" if tabs else None, "," in first, has_words)
+    return _Layout("," if "," in first else None, False, has_words)
 
 
 def _reason(file: Path, layout: _Layout, message: str, *, holes: bool) -> DescriptionError:
