@@ -166,7 +166,7 @@ def _quantity(kind: type, attribute: attrs.Attribute[Any]) -> Callable[[Any, Any
         if isinstance(value, list | tuple):
             return tuple(hook(item, target) for item in value)
         if attribute.type is int and isinstance(value, str):
-            raise DescriptionError(field, value, "be a whole number, without quotes")
+            return value  # which the class reads itself
         return parse_quantity(value, unit, field)
 
     return hook
