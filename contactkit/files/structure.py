@@ -114,13 +114,28 @@ def _tagged(known: Registry[Any] | Registries[Any], tag: str) -> Callable[[Any, 
         if not isinstance(value, Mapping):
             raise DescriptionError(tag, value, f"be a table with a key {tag!r}")
         rest = dict(value)
-        kind = known.find(rest.pop(tag, None), tag)
+        kind = _found(known, rest.pop(tag, None), tag)
         # A class that is its own base would come here again, without its name.
         return (
             _attrs_class(kind)(rest, kind) if _is_base(kind) else _CONVERTER.structure(rest, kind)
         )
 
     return hook
+
+
+def _found(known: Registry[Any] | Registries[Any], name: Any, tag: str) -> type:
+    """Find a kind; the message names the family that has one of this name, or how to add one."""
+    try:
+        return known.find(name, tag)
+    except DescriptionError as error:
+        if not isinstance(name, str) or not error.hint.startswith("known"):
+            raise
+        names = dict.fromkeys(one.family for one in KINDS._registries() if one.get(name))
+        cure = f"it is a {' and a '.join(names)}" if names else error.hint + _OWN
+        raise DescriptionError(tag, name, error.expected, hint=cure) from None
+
+
+_OWN = "; one of your own: ck.register, and on the command line --plugin FILE.py"
 
 
 def _of_family(base: type) -> Callable[[Any, Any], Any]:

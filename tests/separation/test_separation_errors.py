@@ -551,7 +551,10 @@ MISTAKES = {
     "no number": ([('"2 um"', '"two um"')], ["must be a number and a unit [m], got 'two um'"]),
     "unknown unit": (
         [('"2 um"', '"2 parsec"')],
-        ["unit must be made of known symbols ('parsec' is not one)", "at loading.initial_gap"],
+        [
+            "ImposedSpeed.initial_gap must be made of known symbols ('parsec' is not one)",
+            "at loading.initial_gap",
+        ],
     ),
     "a boolean": ([('"2 um"', "true")], ["ImposedSpeed.initial_gap must be", "[m], got True"]),
     "impossible": (
@@ -762,7 +765,7 @@ def test_a_saved_result_comes_back_the_same(tmp_path, viscous_only):
 
 @pytest.mark.parametrize("text", ["1 foo", "1 m/foo", "1 xm", "1 kbar.foo", "1e m"])
 def test_an_unknown_symbol_is_named(text):
-    refuses(lambda: parse_quantity(text, "m"), "unit must be made of known symbols")
+    refuses(lambda: parse_quantity(text, "m", "Flat.radius"), "Flat.radius must be made of known")
 
 
 @pytest.mark.parametrize("value", ["", "m", "nan m", "- m", None, [1.0], True])
