@@ -61,7 +61,7 @@ def quantity(name: str, given: ArrayLike | str, unit: str) -> Array:
         found = np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError):
         raise DescriptionError(name, given, "be a number", unit=unit) from None
-    if isinstance(given, bool) or given is None:
+    if given is None or np.asarray(given).dtype == np.bool_:
         raise DescriptionError(name, given, "be a number", unit=unit)
     return found
 

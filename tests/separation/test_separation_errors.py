@@ -109,7 +109,7 @@ FIELDS = [
     (LIMIT, "ambient_pressure", "Pa", POSITIVE, [0.0, -1e5, None]),
     (CAVITATING, "cavity_pressure", "Pa", FINITE, []),
     (SHEAR, "strength", "Pa", POSITIVE, [0.0, -1e5, None]),
-    (BREAK, "gap", "m", POSITIVE, [0.0, -1e-6]),
+    (BREAK, "gap", "m", f"{POSITIVE}, 'limit' or 'zero-neck'", [0.0, -1e-6]),
     (ATTRACTION, "hamaker_constant", "J", POSITIVE, [0.0, -1e-19, None]),
     (ATTRACTION, "cutoff", "m", POSITIVE, [0.0, -1e-10, None]),
     (STICKY, "work_of_adhesion", "J/m2", POSITIVE, [0.0, -0.05, "wet", None]),
