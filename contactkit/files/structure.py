@@ -43,6 +43,7 @@ __all__ = [
     "library_names",
     "load_liquid",
     "load_material",
+    "read_part",
     "renamed",
     "structure",
     "telling_lines",
@@ -432,12 +433,23 @@ def structure(tables: Mapping[str, Any], kind: type[_T], origin: str) -> _T:
     DescriptionError
         Listing every mistake and where it is.
     """
+    made, problems = read_part(tables, kind)
+    if made is None:
+        raise FileError(origin, problems)
+    return made
+
+
+def read_part(
+    tables: Any, kind: type[_T], place: str = ""
+) -> tuple[_T, list[FileProblem]] | tuple[None, list[FileProblem]]:
+    """Build an object from the tables at a place of a file: the object, or all mistakes."""
     try:
-        return _CONVERTER.structure(tables, kind)
+        return _CONVERTER.structure(tables, kind), []
     except DescriptionError as error:
-        raise DescriptionError(origin, kind.__name__, f"describe a scene; {error}") from None
+        return None, [FileProblem(str(error), place)]
     except cattrs.ClassValidationError as error:
-        raise FileError(origin, _problems(error)) from None
+        found = _problems(error)
+    return None, [FileProblem(text, ".".join(filter(None, (place, at)))) for text, at in found]
 
 
 def _problems(error: cattrs.ClassValidationError) -> list[FileProblem]:
