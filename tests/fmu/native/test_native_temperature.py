@@ -59,7 +59,7 @@ def test_a_film_follows_the_laws_of_its_liquid(film, celsius):
 
 def test_its_viscosity_and_tension_are_those_of_the_laws(film):
     """At rest and at a speed, against the laws themselves: 230 K of oil, a factor of 2000."""
-    made, fmu = film
+    _, fmu = film
     rest = {t: run(fmu, T=t)["F_m"][0] for t in (260.0, 400.0)}
     moving = {t: run(fmu, T=t, v0=1e-6)["F_v"][0] for t in (260.0, 400.0)}
     cold, hot = OIL.at(260.0), OIL.at(400.0)
