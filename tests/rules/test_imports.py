@@ -53,8 +53,8 @@ FLOORS = [
     ["__main__"],
 ]
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
-# Names of packages, kinds, the figures of a room, an optional package, what an FMU carries, a plugin
-# of the command line, what plans and runs a kind of scene, a device and its report.
+# Names of packages, kinds, the figures of a room, an optional package, what an FMU carries, a
+# plugin of the command line, what plans and runs a kind of scene, a device and its report.
 IMPORT_BY_NAME = {
     "contactkit.benchmarks.hard.case",
     "contactkit.benchmarks.table",
