@@ -41,7 +41,7 @@ from contactkit.contact.effects.base import (
     Observer,
     PressureBound,
 )
-from contactkit.fmu.framework.ports import Port
+from contactkit.fmu.framework.ports import Port, display_conversion
 from contactkit.fmu.framework.slave import PortSlave
 from contactkit.fmu.slaves.contact_stop import ContactStop
 from contactkit.fmu.slaves.deforming import DeformingForce, DeformingMass
@@ -68,6 +68,7 @@ from contactkit.models.injector.valve import DriveProfile, Spring, Stop
 from contactkit.models.micromirror.electrostatics import Electrode
 from contactkit.models.micromirror.mirror import Hinge, SpringTips, Waveform
 from contactkit.models.micromirror.scene import MirrorStudy
+from contactkit.plot.axis_units import in_print
 from contactkit.scene.interface import Body
 from contactkit.separation.effects.base import (
     CoupledEffect,
@@ -195,19 +196,60 @@ def effect_table(kinds: Iterable[type[Effect]]) -> str:
     )
 
 
-def ports(table: Sequence[Port], causality: str) -> str:
-    """Variables of an FMU of one causality."""
-    head = ["name", "unit", "shown in", "meaning"]
-    head[3:3] = [] if causality == "output" else ["start", "must"]
+def _amount(port: Port) -> str:
+    """Start value of a port, in the unit that tools show."""
+    if port.enumeration:
+        return f"{port.enumeration(port.start).name}"
+    unit = port.display_unit or port.unit
+    factor = display_conversion(port.unit, unit).factor if port.display_unit else 1.0
+    return f"{port.start * factor:.4g} {in_print(unit)}".removesuffix(" -").replace(" °", "°")
+
+
+def _range(port: Port) -> str:
+    """Values that a port allows."""
+    if port.enumeration is not None:
+        return ", ".join(f"{int(m)} {m.name}" for m in port.enumeration)
+    above, below = (">", "<") if port.exclusive else ("≥", "≤")
+    bounds = [f"{above} {port.minimum:g}"] if port.minimum is not None else []
+    bounds += [f"{below} {port.maximum:.4g}"] if port.maximum is not None else []
+    return ", ".join(["whole"] * (port.kind == "integer") + bounds)
+
+
+def ports(table: Iterable[Port]) -> str:
+    """Variables of an FMU: outputs by name and meaning, others with start and range."""
     rows = []
-    for port in (p for p in table if p.causality == causality):
-        start = port.enumeration(port.start).name if port.enumeration else f"{port.start:g}"
-        row = [f"`{port.name}`", port.unit, port.display_unit or "", port.label]
-        row[3:3] = [] if causality == "output" else [start, port.expectation]
-        if causality == "output" and port.enumeration is not None:
-            row[-1] += ": " + ", ".join(f"{int(m)} {m.name}" for m in port.enumeration)
-        rows.append(row)
-    return grid(head, rows)
+    shown = list(table)
+    has_start = any(port.causality != "output" for port in shown)
+    for port in shown:
+        unit = "" if port.unit == "-" else f" [{in_print(port.unit)}]"
+        meaning = f"{port.label}{unit}"
+        if has_start:
+            rows.append((f"`{port.name}`", _amount(port), _range(port), meaning))
+        else:
+            kinds = f": {_range(port)}" if port.enumeration is not None else ""
+            rows.append((f"`{port.name}`", meaning + kinds))
+    return grid(("name", "start", "range", "meaning") if has_start else ("name", "meaning"), rows)
+
+
+PAIRS_OF_FMUS = (("film", "stiction"), ("deforming", "deforming"))
+
+
+def port_tables() -> dict[str, Callable[[], str]]:
+    """Variables of each FMU; parameters that a pair of FMUs shares stand in one table."""
+    found, left = {}, {}
+    for name, model in FMUS.items():
+        for causality in ("input", "output", "parameter"):
+            left[f"{name} {causality}s"] = [p for p in model.ports if p.causality == causality]
+    for label, pair in PAIRS_OF_FMUS:
+        both = [f"{pair}-{what} parameters" for what in ("mass", "force")]
+        common = [port for port in left[both[0]] if port in left[both[1]]]
+        for key in both:
+            left[key] = [port for port in left[key] if port not in common]
+        left[f"{label} parameters"] = common
+    for key, listed in left.items():
+        if listed:
+            found[key] = partial(ports, listed)
+    return found
 
 
 TABLES: Mapping[str, Callable[[], str]] = {
@@ -256,11 +298,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "mirror study": lambda: keys(MirrorStudy),
     "liquids": liquid_table,
     "liquid sources": liquid_source_table,
-    **{
-        f"{name} {causality}s": partial(ports, model.ports, causality)
-        for name, model in FMUS.items()
-        for causality in ("input", "output", "parameter")
-    },
+    **port_tables(),
     "errata": errata_table,
     "nano": nano_table,
     "division": division_table,
