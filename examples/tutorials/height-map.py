@@ -124,7 +124,7 @@ with warnings.catch_warnings():
 #
 # - `periodic=False`: an isolated patch, when the map does not repeat.
 # - A coated solid: `ck.Stack(layers=(ck.Layer(material=..., thickness=...),), substrate=steel)`.
-# - Files of instruments, tilt and holes: [use a measured surface](../how-to/measured-surface.md).
+# - Files of instruments, tilt and holes: [use a measured surface](../how-to/surfaces.md).
 # - A whole scene with two bodies and friction: [coated sphere](coated-sphere.md).
 #
 # The equations: [physics](../physics.md). The area against theories:

@@ -127,5 +127,5 @@ print("the same numbers:", bool(same))
 # - The same from a file: `contactkit study SCENE --out DIR`.
 # - Another field: every key that a scene file may hold can be varied.
 #
-# All of it: [studies](../guide/studies.md). How surfaces are described:
-# [surfaces](../guide/surfaces.md).
+# All of it: [studies](../how-to/studies.md). How surfaces are described:
+# [surfaces](../how-to/surfaces.md).
