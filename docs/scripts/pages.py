@@ -42,7 +42,7 @@ PAGES: Mapping[str, Page] = {
     ),
     "architecture": Page("img/architecture.png", 0.1, (("architecture.py",),)),
     "injector": Page(
-        "injector.md, hosts.md: delays, errors of steps", 2, (("injector", "--write"),)
+        "injector*.md, hosts.md: delays, errors of steps", 2, (("injector", "--write"),)
     ),
     "bridges": Page("bridges.md: errors of closures", 0.5, _measured("bridges")),
     "films": Page("img/: pictures of films.md", 0.5, (("film_pictures.py",),)),

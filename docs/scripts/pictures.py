@@ -61,15 +61,11 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
     },
     ("head-disk", "cost"): {"cost": "head-disk-cost"},
 }
-CURVES = {"wet-film-reported-only": "False", "wet-film-pulls-too": "True"}
-SELF_CONSISTENT = "effects.film-meniscus.self_consistent [-]"  # distinguishes them
+SELF_CONSISTENT = "effects.film-meniscus.self_consistent [-]"  # of two curves; the page has one
 COLUMNS = {  # of a load curve: heading and factor
     "loading.pressure": ("mean pressure [MPa]", 1e-6),
-    "max_pressure": ("maximum pressure [GPa]", 1e-9),
-    "hardness": ("effective hardness [GPa]", 1e-9),
     "contact_fraction": ("contact [%]", 100.0),
     "plastic_fraction": ("plastic [%]", 100.0),
-    "max_displacement": ("maximum displacement [nm]", 1e9),
     "relative_meniscus_force": ("meniscus force / load", 1.0),
 }
 COST_PICTURE = (
@@ -107,10 +103,10 @@ def head_disk_numbers(scalars: Mapping[str, Mapping[str, float]]) -> str:
     return grid(("what", "value", "where"), rows)
 
 
-def load_curve(text: str, self_consistent: str) -> str:
-    """Load curve from the CSV file that the run wrote."""
+def load_curve(text: str) -> str:
+    """Load curve without the pull of the film, from the CSV file that the run wrote."""
     every = csv.DictReader(io.StringIO(text))
-    rows = [row for row in every if row[SELF_CONSISTENT] == self_consistent]
+    rows = [row for row in every if row[SELF_CONSISTENT] == "False"]
     found = {name: next(k for k in rows[0] if k.startswith(f"{name} [")) for name in COLUMNS}
     cells = [
         [f"{float(row[found[name]]) * factor:.3g}" for name, (_, factor) in COLUMNS.items()]
@@ -190,13 +186,9 @@ def blocks(command: str, folder: Path, printed: str) -> Mapping[str, str]:
     if command == "cost":
         table = cost_table((folder / "cost.csv").read_text("utf-8"))
         return {"head-disk cost": f"{COST_PICTURE}\n\n{table}"}
-    curves = {
-        f"head-disk load curve, {name}": load_curve(
-            (folder / "study.csv").read_text("utf-8"), value
-        )
-        for name, value in CURVES.items()
-    }
-    return {"head-disk numbers": head_disk_numbers(json.loads(printed)), **curves}
+    curve = load_curve((folder / "study.csv").read_text("utf-8"))
+    numbers = head_disk_numbers(json.loads(printed))
+    return {"head-disk numbers": numbers, "head-disk load curve": curve}
 
 
 def run_example(name: str, folder: Path) -> None:
