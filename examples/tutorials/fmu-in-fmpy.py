@@ -8,7 +8,7 @@ communication step costs in accuracy.
 # %% [markdown]
 # ## Build it from a scene
 #
-# A mass of 20 g held by 20 um of oil, pulled by 10 N. Its values become the start values of the FMU,
+# A mass of 20 g held by 20 µm of oil, pulled by 10 N. Its values become the start values of the FMU,
 # so that it runs as it is. This needs the extra `fmu`.
 
 # %%
@@ -172,7 +172,6 @@ plt.show()
 #
 # ## What to change next
 #
-# - `contactkit fmu build film.toml --native --fmi 3 --out film.fmu`: no Python on the host.
 # - `stiction-force`, if the other tool must own the mass: read [coupling](../coupling.md) first.
 # - Put it into another tool: [export to other tools](../how-to/export-fmu.md).
 #
