@@ -55,12 +55,12 @@ PAGES: Mapping[str, Page] = {
     "adhesion": Page("adhesion.md: levels of a curve, and its picture", 5, _measured("adhesion")),
     "claims": Page("errata.md: statements of chapter 2", 3, _measured("claims")),
     "pictures": Page(
-        "img/: figures of shipped scenes and examples; head-disk.md, accuracy.md: head-disk",
+        "img/: figures of shipped scenes and examples; head-disk*.md, accuracy.md: head-disk",
         20,
         (("pictures.py",),),
     ),
     "sensitivity": Page(
-        "injector.md, micromirror.md, head-disk.md: tornado figures", 7, (("sensitivity.py",),)
+        "img/tornado-*; injector.md, micromirror.md: their tables", 7, (("sensitivity.py",),)
     ),
     "demands": Page("demands/: accuracy and cost, hard cases, effects", 12, (("demands",),)),
     "peers": Page(

@@ -120,6 +120,10 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
             page.meta.setdefault("search", {"boost": boost})
             break
     if page.file.src_uri == "api/index.md":
+        for topic in TOPICS:
+            markdown = markdown.replace(
+                f"| {topic.title} |", f"| [{topic.title}]({topic.page}.md) |"
+            )
         return re.sub(r"`ck\.(\w+)`", r"[`\1`][contactkit.\1]", markdown)
     return markdown
 

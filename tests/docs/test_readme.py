@@ -45,7 +45,7 @@ def with_blocks(language):
     """Pages with blocks of a language; those about FMUs take long, two others longest."""
 
     def marks(page):
-        if page in (ROOT / "docs" / "adhesion.md", ROOT / "docs" / "head-disk.md"):
+        if page in (ROOT / "docs" / "adhesion.md", ROOT / "docs" / "head-disk-detail.md"):
             return [pytest.mark.exhaustive]
         return [pytest.mark.slow] if "fmu" in page.name or page.stem in SLOW else []
 
