@@ -138,11 +138,11 @@ def default(field: attrs.Attribute[Any]) -> str:
     """Default value of a field, in words."""
     value = field.default
     if value is attrs.NOTHING:
-        return "must be given"
+        return "required"
     if isinstance(value, attrs.Factory):  # type: ignore[arg-type]
         return FACTORIES[value.factory]
     if value is None:
-        return "not given"
+        return ""
     if value in ("", ()):
         return "empty"
     if isinstance(value, bool):
@@ -153,13 +153,24 @@ def default(field: attrs.Attribute[Any]) -> str:
 
 
 def keys(kind: type) -> str:
-    """Keys of a table in a file: the fields of a class."""
+    """Keys of a table in a file: the fields of a class; neighbours that mean the same in one row."""
     texts, rows = descriptions(kind), []
     for field in (one for one in attrs.fields(kind) if one.name[0] != "_"):
-        unit = field.metadata.get("unit", "")
         text = re.sub(r" \[[^]]{1,10}\]", "", texts[field.name])
-        rows.append((f"`{field.alias}`", unit, default(field), text))
-    return grid(("key", "unit", "default", "meaning"), rows)
+        name, rest = f"`{field.alias}`", (default(field), _with_unit(text, field))
+        if rows and rows[-1][1:] == rest:
+            name = f"{rows.pop()[0]}, {name}"
+        rows.append((name, *rest))
+    return grid(("key", "default", "meaning"), rows)
+
+
+def _with_unit(text: str, field: attrs.Attribute[Any]) -> str:
+    """Meaning of a field with its unit at the end of the first sentence."""
+    unit = field.metadata.get("unit", "-")
+    end = re.search(r"\.(?= |$)", text)
+    if unit == "-" or end is None:
+        return text
+    return f"{text[: end.start()]} [{unit}]{text[end.start() :]}"
 
 
 def named(kinds: Iterable[tuple[str, type]], tag: str) -> str:
