@@ -153,7 +153,7 @@ def default(field: attrs.Attribute[Any]) -> str:
 
 
 def keys(kind: type) -> str:
-    """Keys of a table in a file: the fields of a class; neighbours that mean the same in one row."""
+    """Keys of a table in a file; neighbouring fields that mean the same share a row."""
     texts, rows = descriptions(kind), []
     for field in (one for one in attrs.fields(kind) if one.name[0] != "_"):
         text = re.sub(r" \[[^]]{1,10}\]", "", texts[field.name])
