@@ -40,7 +40,7 @@ def material_table() -> str:
         modulus = quantity_text(one.young_modulus, "Pa")
         elastic = f"{modulus}, {one.poisson_ratio:g}"
         rows.append((f"`{name}`", elastic, hardness, in_prose(one.source)))
-    return grid(("material", "Young's modulus, Poisson's ratio", "hardness", "source"), rows)
+    return grid(("material", "modulus, ratio", "hardness", "source"), rows)
 
 
 def head_disk_table() -> str:

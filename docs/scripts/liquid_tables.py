@@ -33,8 +33,8 @@ def liquid_table() -> str:
         more = f"{room.surface_tension * 1e3:.4g}", f"{room.density:.4g}"  # type: ignore[operator]
         rows.append((f"`{name}`", ", ".join(cells), *more))
     degrees = ", ".join(f"{one:g}" for one in at)
-    head = f"viscosity [mPa·s] at {degrees} °C"
-    return grid(("liquid", head, "surface tension [mN/m]", "density [kg/m³]"), rows)
+    table = grid(("liquid", "mPa·s", "mN/m", "kg/m³"), rows)
+    return f"Viscosity at {degrees} °C; surface tension and density at 20 °C:\n\n{table}"
 
 
 def liquid_source_table() -> str:

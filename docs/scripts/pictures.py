@@ -63,10 +63,10 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
 }
 SELF_CONSISTENT = "effects.film-meniscus.self_consistent [-]"  # of two curves; the page has one
 COLUMNS = {  # of a load curve: heading and factor
-    "loading.pressure": ("mean pressure [MPa]", 1e-6),
+    "loading.pressure": ("load [MPa]", 1e-6),
     "contact_fraction": ("contact [%]", 100.0),
     "plastic_fraction": ("plastic [%]", 100.0),
-    "relative_meniscus_force": ("meniscus force / load", 1.0),
+    "relative_meniscus_force": ("meniscus / load", 1.0),
 }
 COST_PICTURE = (
     "![Error of the pressure over seconds for three solvers; error of the area over the grid; "

@@ -233,13 +233,11 @@ def ports(table: Iterable[Port]) -> str:
     has_start = any(port.causality != "output" for port in shown)
     for port in shown:
         unit = "" if port.unit == "-" else f" [{in_print(port.unit)}]"
-        meaning = f"{port.label}{unit}"
-        if has_start:
-            rows.append((f"`{port.name}`", _amount(port), _range(port), meaning))
-        else:
-            kinds = f": {_range(port)}" if port.enumeration is not None else ""
-            rows.append((f"`{port.name}`", meaning + kinds))
-    return grid(("name", "start", "range", "meaning") if has_start else ("name", "meaning"), rows)
+        allowed = _range(port) if has_start or port.enumeration is not None else ""
+        start = (_amount(port),) if has_start else ()
+        meaning = f"{port.label}{unit}{f': {allowed}' if allowed else ''}"
+        rows.append((f"`{port.name}`", *start, meaning))
+    return grid(("name", "start", "meaning") if has_start else ("name", "meaning"), rows)
 
 
 PAIRS_OF_FMUS = (("film", "stiction"), ("deforming", "deforming"))

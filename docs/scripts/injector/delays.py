@@ -57,7 +57,7 @@ def pressure_table() -> str:
             ]
             row.append(", ".join(cells))
         rows.append(row)
-    return grid(["pressure around the face", "cavity of vapour [ms]", "sustains it [ms]"], rows)
+    return grid(["pressure", "vapour [ms]", "sustains it [ms]"], rows)
 
 
 def closing_table() -> str:
@@ -65,7 +65,7 @@ def closing_table() -> str:
     injector = open_scene("fuel-injector").scene
     profile, rest = injector.valve.profile, injector.loading.rest_gap
     ends = [profile.start_delay + (n + 1) * profile.period for n in range(profile.cycles)]
-    head = [f"after cycle {n} [µm]" for n in (1, len(ends))]
+    head = [f"cycle {n} [µm]" for n in (1, len(ends))]
     rows = []
     for name, pressure in (("vapour", 0.0), ("sustains it", -math.inf)):
         for temperature in injector.study.temperatures:
@@ -73,7 +73,7 @@ def closing_table() -> str:
             found = simulate_monolithic(made, injector.valve, ends[-1], rtol=1e-6, times=ends)
             short = [f"{(found.columns['gap'][n] - rest) * 1e6:.2f}" for n in (0, -1)]
             rows.append([f"{name}, {temperature - celsius(0.0):.0f} °C", *short])
-    return grid(["cavity, temperature", *head], rows)
+    return grid(["cavity", *head], rows)
 
 
 def refilling_table() -> str:
@@ -99,5 +99,5 @@ def refilling_table() -> str:
         ]
         degrees = f"{temperature - celsius(0.0):.0f} °C"
         rows.append([degrees, f"{viscosity:.3g}", *(f"{time * 1e3:.3g}" for time in times)])
-    head = ["temperature", "viscosity [Pa·s]", "cavity of vapour [ms]", "sustains 10 bar [ms]"]
+    head = ["oil at", "viscosity [Pa·s]", "vapour [ms]", "10 bar [ms]"]
     return grid(head, rows)
