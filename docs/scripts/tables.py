@@ -156,7 +156,7 @@ def keys(kind: type) -> str:
     """Keys of a table in a file; neighbouring fields that mean the same share a row."""
     texts, rows = descriptions(kind), []
     for field in (one for one in attrs.fields(kind) if one.name[0] != "_"):
-        text = re.sub(r" \[[^]]{1,10}\]", "", texts[field.name])
+        text = re.sub(r" \[[^]]{1,10}\]", "", texts[field.name]).replace(" degC", " °C")
         name, rest = f"`{field.alias}`", (default(field), _with_unit(text, field))
         if rows and rows[-1][1:] == rest:
             name = f"{rows.pop()[0]}, {name}"
@@ -211,6 +211,8 @@ def _amount(port: Port) -> str:
     """Start value of a port, in the unit that tools show."""
     if port.enumeration:
         return f"{port.enumeration(port.start).name}"
+    if port.kind == "integer":
+        return f"{port.start:d}"
     unit = port.display_unit or port.unit
     factor = display_conversion(port.unit, unit).factor if port.display_unit else 1.0
     return f"{port.start * factor:.4g} {in_print(unit)}".removesuffix(" -").replace(" °", "°")
@@ -222,8 +224,9 @@ def _range(port: Port) -> str:
         return ", ".join(f"{int(m)} {m.name}" for m in port.enumeration)
     above, below = (">", "<") if port.exclusive else ("≥", "≤")
     bounds = [f"{above} {port.minimum:g}"] if port.minimum is not None else []
-    bounds += [f"{below} {port.maximum:.4g}"] if port.maximum is not None else []
-    return ", ".join(["whole"] * (port.kind == "integer") + bounds)
+    whole = port.kind == "integer"
+    bounds += [f"{below} {port.maximum:.{9 if whole else 4}g}"] if port.maximum is not None else []
+    return ", ".join(["whole"] * whole + bounds)
 
 
 def ports(table: Iterable[Port]) -> str:
