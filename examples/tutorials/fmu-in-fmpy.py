@@ -42,19 +42,6 @@ print(fmu.name, "findings of the check:", validate(fmu))
 # On the command line the same is `contactkit fmu build film.toml --out film.fmu`; with `--native` it
 # needs no Python on the host.
 #
-# ## What is inside?
-#
-# The description lists every variable with its unit. The interface is small: pull in, motion out.
-
-# %%
-description = fmpy.read_model_description(str(fmu))
-print("FMI", description.fmiVersion, description.modelName)
-for variable in description.modelVariables:
-    if variable.causality == "input" or variable.name in ("h", "v", "F", "t_release"):
-        unit = variable.unit or "-"
-        print(f"{variable.causality:7s} {variable.name:10s} [{unit}]")
-
-# %% [markdown]
 # ## Run it alone
 #
 # fmpy sets the pull and steps the FMU. It does not raise when a step is discarded, so compare its
