@@ -94,13 +94,12 @@ def head_disk_numbers(scalars: Mapping[str, Mapping[str, float]]) -> str:
     """Numbers of the head-disk interface at the pressure of the scene."""
     rows = []
     for name, (label, factor, unit) in NUMBERS.items():
-        place = ""
+        value = f"{scalars[name]['value'] * factor:.4g} {unit}".strip()
         if f"{name}_depth" in scalars:
             depth, layer = (scalars[f"{name}_{what}"]["value"] for what in ("depth", "layer"))
-            place = f"{depth * 1e9:.3g} nm deep, layer {int(layer) + 1}"
-        value = f"{scalars[name]['value'] * factor:.4g}"
-        rows.append((label, f"{value} {unit}".strip(), place))
-    return grid(("what", "value", "where"), rows)
+            value += f", {depth * 1e9:.3g} nm deep, layer {int(layer) + 1}"
+        rows.append((label, value))
+    return grid(("what", "value"), rows)
 
 
 def load_curve(text: str) -> str:
