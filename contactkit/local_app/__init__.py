@@ -1,0 +1,1 @@
+"""The local app of ``contactkit app``."""
