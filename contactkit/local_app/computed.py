@@ -1,4 +1,4 @@
-"""What the app computes of a scene: its surface, the result, area over load with its error."""
+"""Computations of the app: surfaces of a scene, its result, area over load with its error."""
 
 from __future__ import annotations
 
@@ -193,8 +193,10 @@ def area_with_error(result: ContactResult) -> AreaWithError:
         area = one.corrected_contact_area / one.plan.grid.area
         error = errors_of(one).get("corrected_contact_area", math.nan) * area
         rows.append((one.mean_pressure, area, max(area - error, 0.0), min(area + error, 1.0)))
-    pressure, area, low, high = map(np.array, zip(*rows, strict=True))
-    return AreaWithError(mean_pressure=pressure, area=area, at_least=low, at_most=high)
+    columns = np.array(rows).T
+    return AreaWithError(
+        mean_pressure=columns[0], area=columns[1], at_least=columns[2], at_most=columns[3]
+    )
 
 
 def curve_of(result: Result) -> Answer:

@@ -12,10 +12,12 @@ from attrs import evolve, field, frozen
 
 from ..app.scenes import OpenedScene, open_scene
 from ..app.templates import template
+from ..contact.effects.elasticity import HalfSpace
 from ..errors import ContactkitError, PlanError
 from ..files.scenes import write_whole
 from ..files.structure import load_material
 from ..reading.limits import check_limit
+from ..reading.named_files import existing
 from ..roughness.height_maps import read_height_map
 from ..scene.interface import Body, Interface
 from ..scene.loading import Pressing
@@ -23,7 +25,16 @@ from ..scene.rough_surfaces import Measured
 from ..scene.scenes import ContactScene, SeparationScene
 from .form import Choice, choices_of
 
-__all__ = ["HALVES", "Desk", "Dropped", "Start", "current_desk", "is_contact", "put_on_desk"]
+__all__ = [
+    "HALVES",
+    "Desk",
+    "Dropped",
+    "Start",
+    "current_desk",
+    "is_contact",
+    "opened_scene",
+    "put_on_desk",
+]
 
 HALVES = ("contact", "separation")
 """Kinds of scenes that the app takes, as templates are named."""
@@ -103,7 +114,7 @@ class Desk:
         """
         try:
             source = self.keep(dropped[-1]) if dropped else self.opened
-            return Start(_opened(source, half))
+            return Start(opened_scene(source, half))
         except ContactkitError as error:
             return Start(_of_template(half), str(error))
 
@@ -117,7 +128,7 @@ class Start:
 
     @property
     def choices(self) -> tuple[Choice, ...]:
-        """What a form lets choose of it."""
+        """Choices that a form offers of it."""
         return choices_of(self.scene)
 
 
@@ -140,7 +151,14 @@ def is_contact(opened: OpenedScene) -> bool:
     return isinstance(opened.scene, ContactScene)
 
 
-def _opened(source: Path | str | None, half: str) -> OpenedScene:
+def opened_scene(source: Path | str | None, half: str) -> OpenedScene:
+    """Scene of a file or a name, a contact of a height map, or a template where there is none.
+
+    Raises
+    ------
+    ContactkitError
+        If there is no such file, or it holds neither a contact nor a separation.
+    """
     if source is None:
         return _of_template(half)
     path = Path(source)
@@ -169,20 +187,15 @@ def _of_template(half: str) -> OpenedScene:
 
 def _of_map(path: Path) -> OpenedScene:
     """A rigid flat on a measured surface of steel; holes are masked if the map has some."""
+    existing(path, "height map")
     surface = Measured(path=path.resolve(), holes="masked" if _has_holes(path) else "refused")
     scene = ContactScene(
         name=path.stem,
         interface=Interface(lower=Body(surface=surface, solid=load_material(_SOLID))),
         loading=Pressing(pressure=_PRESSURE),
-        effects=(_half_space(),),
+        effects=(HalfSpace(),),
     )
     return OpenedScene(scene)
-
-
-def _half_space() -> object:
-    from ..contact.effects.elasticity import HalfSpace
-
-    return HalfSpace()
 
 
 def _has_holes(path: Path) -> bool:

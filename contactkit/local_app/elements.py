@@ -8,6 +8,7 @@ from typing import Any
 
 import marimo as mo
 
+from ..plot.axis_units import in_print
 from .form import EFFECTS, Choice, Part
 from .movers import Mover
 from .widgets import Widget
@@ -21,15 +22,13 @@ _MANY = 8  # choices from which on a list is searched
 
 
 def choice_elements(choices: Sequence[Choice]) -> Any:
-    """A dictionary of elements, by path, for what is chosen."""
+    """A dictionary of elements, by path, for choices."""
     return mo.ui.dictionary({one.path: _of_choice(one) for one in choices})
 
 
 def _of_choice(choice: Choice) -> Any:
     if choice.path == EFFECTS:
-        return mo.ui.multiselect(
-            choice.options, value=list(choice.chosen), label="effects"
-        )
+        return mo.ui.multiselect(choice.options, value=list(choice.chosen), label="effects")
     return mo.ui.dropdown(
         choice.options,
         value=choice.chosen,
@@ -40,7 +39,7 @@ def _of_choice(choice: Choice) -> Any:
 
 
 def chosen_of(values: Mapping[str, Any]) -> dict[str, Any]:
-    """What is chosen, by path, of the values of `choice_elements`."""
+    """Names that are chosen, by path, from the values of `choice_elements`."""
     return {path: tuple(v) if isinstance(v, list) else v for path, v in values.items()}
 
 
@@ -71,7 +70,7 @@ def field_elements(
 
 
 def _slider(mover: Mover) -> Any:
-    unit = "" if mover.unit == "-" else f" [{mover.unit}]"
+    unit = "" if mover.unit == "-" else f" [{in_print(mover.unit)}]"
     return mo.ui.slider(
         steps=mover.numbers,
         value=mover.start,

@@ -1,4 +1,4 @@
-"""What the app hands over: scene, report, columns, FMU."""
+"""Downloads of the app: scene, report, columns, FMU."""
 
 from __future__ import annotations
 

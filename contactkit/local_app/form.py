@@ -30,7 +30,9 @@ from ..kinds import (
 from ..scene.interface import Body
 from ..scene.materials import Layer, Material, Stack
 from ..scene.meniscus import Meniscus
+from ..scene.rough_surfaces import Measured
 from ..scene.scenes import ContactScene, SeparationScene
+from ..scene.surfaces import Flat
 from ..scene.window import Window
 from .widgets import Widget, is_complete, value_of_text, widgets_of
 
@@ -61,11 +63,14 @@ _BODIES = ("lower", "upper")
 # Which of them it is follows from the layers.
 _ELASTIC = ("half-space", "layered-half-space")
 _OF_A_FILM = ("flat", "sphere")
+_OF_FILMS = ("radius", "crown_radius")  # of a flat; a contact reads neither
+_SAID = ("name", "source")  # of a material, kept as they are
+_OF_A_FILE = ("path", "checksum")  # of a map that was opened
 
 
 @frozen(kw_only=True)
 class Choice:
-    """What one of several kinds is taken of, by names as in scene files.
+    """A choice of a kind, by its name in scene files.
 
     `chosen` is a name; of effects it is a tuple of names.
     """
@@ -106,7 +111,7 @@ class Made:
 
 
 def choices_of(start: OpenedScene) -> tuple[Choice, ...]:
-    """What a form lets choose of a scene: bodies, liquid, loading, effects.
+    """Choices of a form for a scene: bodies, liquid, loading, effects.
 
     Examples
     --------
@@ -192,7 +197,7 @@ def parts_of(start: OpenedScene, chosen: Mapping[str, Any]) -> tuple[Part, ...]:
     taken = {choice.path: choice.chosen for choice in choices_of(start)} | dict(chosen)
     found = [part for side in _BODIES for part in _body_parts(scene, given, side, taken)]
     found += _liquid_parts(scene, given, taken["interface.meniscus.liquid"])
-    if whole:
+    if isinstance(scene, ContactScene):
         widgets = widgets_of(Window, "window", scene.window)
         found.append(Part(path="window", title="window", widgets=widgets, kind=Window))
     loadings = CONTACT_LOADINGS if whole else SEPARATION_LOADINGS
@@ -208,20 +213,22 @@ def parts_of(start: OpenedScene, chosen: Mapping[str, Any]) -> tuple[Part, ...]:
     hidden = {one.name for one in attrs.fields(Accuracy)} - settings
     widgets = widgets_of(Accuracy, "accuracy", start.accuracy, hidden)
     rest = {n: start.accuracy.values[n] for n in start.accuracy.given - settings}
-    found.append(
-        Part(path="accuracy", title="accuracy", widgets=widgets, kind=Accuracy, rest=rest)
-    )
+    found.append(Part(path="accuracy", title="accuracy", widgets=widgets, kind=Accuracy, rest=rest))
     return tuple(found)
 
 
-def _kind_part(registry: Any, path: str, name: str, owner: object, given: Any) -> Part:
+def _kind_part(
+    registry: Any, path: str, name: str, owner: object, given: Any, is_contact: bool = False
+) -> Part:
     """Part of an object of a family: of a chosen kind, or as it is given."""
     title = path.removeprefix("interface.").replace(".", ", ")
     if name == AS_GIVEN:
         return Part(path=path, title=title, rest=deepcopy(given))
     kind = registry.find(name)
     same = owner if type(owner) is kind else None
-    widgets = widgets_of(kind, path, same)
+    hidden = _OF_FILMS if kind is Flat and is_contact else ()
+    hidden = _OF_A_FILE if kind is Measured and same is not None else hidden
+    widgets = widgets_of(kind, path, same, hidden)
     shown = {widget.path.removeprefix(f"{path}.").partition(".")[0] for widget in widgets}
     kept = {} if same is None else {k: v for k, v in (given or {}).items() if k not in shown}
     tag = getattr(registry, "tag", "effect")
@@ -234,7 +241,8 @@ def _body_parts(
     path, body = f"interface.{side}", getattr(scene.interface, side)
     table = given.get("interface", {}).get(side, {})
     surface = table if body.solid is None else table.get("surface", {})
-    yield _kind_part(SURFACES, f"{path}.surface", taken[f"{path}.surface"], body.surface, surface)
+    chosen, contact = taken[f"{path}.surface"], isinstance(scene, ContactScene)
+    yield _kind_part(SURFACES, f"{path}.surface", chosen, body.surface, surface, contact)
     name = taken[f"{path}.solid"]
     if name == RIGID:
         return
@@ -248,8 +256,9 @@ def _body_parts(
     own = body.solid if isinstance(body.solid, Material) and name == OWN else None
     widgets = list(_thicknesses(body, place, names))
     if name == OWN:
-        widgets += widgets_of(Material, below, own, skip=("name", "source"))
-    rest: Any = {} if name == OWN else name
+        widgets += widgets_of(Material, below, own, skip=_SAID)
+    said = {} if own is None else unstructure(own)
+    rest: Any = {k: said[k] for k in _SAID if k in said} if name == OWN else name
     if names:
         stacked = [{"material": layer} for layer in names]
         rest = {"layers": stacked, "substrate": rest}
@@ -281,9 +290,7 @@ def _liquid_parts(scene: Any, given: Mapping[str, Any], name: str) -> Iterator[P
     )
 
 
-def _effect_parts(
-    scene: Any, given: Mapping[str, Any], taken: Mapping[str, Any]
-) -> Iterator[Part]:
+def _effect_parts(scene: Any, given: Mapping[str, Any], taken: Mapping[str, Any]) -> Iterator[Part]:
     is_contact = isinstance(scene, ContactScene)
     known = CONTACT_EFFECTS if is_contact else SEPARATION_EFFECTS
     names = list(taken[EFFECTS])
@@ -316,7 +323,7 @@ def tables_of(parts: Sequence[Part], values: Mapping[str, Any]) -> dict[str, Any
 
     A text that is not given is that of the start; one that says the default is left out.
     """
-    tables: dict[str, Any] = {}
+    tables: dict[str, Any] = {EFFECTS: []}
     for part in parts:
         if part.path:
             _put(tables, part.path, deepcopy(part.rest))
@@ -338,7 +345,7 @@ def _put(tables: dict[str, Any], path: str, value: Any) -> None:
     *before, last = path.split(".")
     for i, segment in enumerate(before):
         if segment == EFFECTS and i == 0:
-            at = at.setdefault(EFFECTS, [])
+            at = at[EFFECTS]
         elif isinstance(at, list):
             at = at[int(segment)] if segment.isdecimal() else _effect_in(at, segment)
         else:
@@ -358,7 +365,7 @@ def _effect_in(effects: list[Any], name: str) -> Any:
 
 
 def made_of(start: OpenedScene, parts: Sequence[Part], values: Mapping[str, Any]) -> Made:
-    """Make the scene of a form; what is wrong is told by the widgets it belongs to."""
+    """Make the scene of a form; each problem has the path of the widget it belongs to."""
     tables = tables_of(parts, values)
     problems: dict[str, list[str]] = {}
     for part in parts:

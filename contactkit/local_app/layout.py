@@ -1,4 +1,4 @@
-"""How the app shows things: the form with what is wrong in it, surfaces, results, downloads."""
+"""Layout of the app: the form with its mistakes, surfaces, results, downloads."""
 
 from __future__ import annotations
 
@@ -16,11 +16,10 @@ from . import exports, shown
 from .computed import Answer, ShownSurface, statistics_of
 from .desk import Start
 from .elements import BETWEEN
-from .form import EFFECTS, Made, Part
+from .form import Made, Part
 
 __all__ = [
     "answer",
-    "choices",
     "curve",
     "downloads",
     "drop_area",
@@ -32,51 +31,77 @@ __all__ = [
     "working",
 ]
 
-_WIDTH = "min(620px, 90vw)"  # of a picture: two beside each other on a screen, one on a phone
+_GROUPS = {
+    "interface.lower": "lower body",
+    "interface.upper": "upper body",
+    "interface.meniscus": "liquid between them",
+    "window": "window",
+    "loading": "loading",
+    "effects": "effects: nothing else is computed",
+    "accuracy": "accuracy",
+}
+"""Sections of a form by the paths in them."""
+
+_ERRORS = "± is the error of the grid, estimated on pixels two and four times as wide."
+_WIDTH = "min(560px, 88vw)"  # of a picture: two beside each other on a screen, one on a phone
 
 
 # What is opened and chosen --------------------------------------------------------------------
 
 
 def drop_area() -> Any:
-    """Where a height map or a scene file is dropped; larger files than may be read are refused."""
+    """Area for a height map or a scene file; one that is larger than may be read is refused."""
     label = "drop a height map (csv, txt, npy, asc, xyz, sdf, an instrument's) or a scene file"
     return mo.ui.file(kind="area", max_size=limit_of("BYTES"), label=label)
 
 
 def head(half: Any, drop: Any) -> Any:
-    """Title, the half to begin with, and where a file is dropped."""
+    """Title, the half to begin with, and the area for a file."""
     title = mo.md("# contactkit\nThis page and what it computes stay on this machine.")
-    return mo.vstack([title, mo.hstack([half, drop], wrap=True, justify="start", gap=2.0)])
+    return mo.vstack([title, _row([half, drop], gap="1rem 2rem")])
 
 
-def choices(start: Start, picks: Any) -> Any:
-    """What is chosen: bodies, liquid and loading, then the effects."""
-    kinds = [picks[one.path] for one in start.choices if one.path != EFFECTS]
-    row = mo.hstack(kinds, wrap=True, justify="start", align="end", gap=1.0)
-    wrong = [_message(start.problem, "danger")] if start.problem else []
-    name = mo.md(f"## {escape(start.scene.name)}")
-    only = mo.md("Effects that are computed, and no others:")
-    return mo.vstack([*wrong, name, row, only, picks[EFFECTS]], gap=0.5)
+def form(
+    start: Start,
+    picks: Any,
+    parts: Sequence[Part],
+    fields: Any,
+    problems: Mapping[str, Sequence[str]],
+) -> Any:
+    """The form: for each body, the liquid and so on what is chosen of it, then its fields.
 
-
-def form(parts: Sequence[Part], elements: Any, problems: Mapping[str, Sequence[str]]) -> Any:
-    """The form: a section for each part, what is wrong under the element that it is about."""
-    sections = []
-    keys = {path: key for key in elements.elements for path in key.split(BETWEEN)}
+    What is wrong stands under the element that it is about.
+    """
+    keys = {path: key for key in fields.elements for path in key.split(BETWEEN)}
+    cells: dict[str, dict[str, Any]] = {group: {} for group in _GROUPS}
+    for choice in start.choices:
+        cells[_group(choice.path)][choice.path] = picks[choice.path]
     for part in parts:
-        cells = {}
         for widget in part.widgets:
             key = keys[widget.path]
             wrong = [text for path in key.split(BETWEEN) for text in problems.get(path, ())]
-            cells[key] = mo.vstack([elements[key], *map(_wrong, wrong)], gap=0.2)
-        if cells:
-            row = mo.hstack(
-                [*cells.values()], wrap=True, justify="start", align="start", gap=1.0
-            )
-            sections.append(mo.vstack([mo.md(f"**{escape(part.title)}**"), row], gap=0.3))
-    whole = [_message(text, "danger") for text in problems.get("", ())]
-    return mo.vstack([*sections, *whole], gap=0.8)
+            shown = mo.vstack([fields[key], *map(_wrong, wrong)], gap=0.2) if wrong else fields[key]
+            cells[_group(part.path)][key] = shown
+    sections = [
+        mo.vstack([mo.md(f"**{title}**"), _row([*cells[group].values()])], gap=0.3)
+        for group, title in _GROUPS.items()
+        if cells[group]
+    ]
+    whole = [_message(text, "danger") for text in (start.problem, *problems.get("", ())) if text]
+    name = mo.md(f"## {escape(start.scene.name)}")
+    return mo.vstack([name, *sections, *whole], gap=0.8)
+
+
+def _group(path: str) -> str:
+    """Group of the form that a path belongs to; the temperature is with the liquid."""
+    return next((group for group in _GROUPS if path.startswith(group)), "interface.meniscus")
+
+
+def _row(cells: Sequence[Any], gap: str = "0.5rem 1.2rem") -> Any:
+    """Cells beside each other, below each other where there is no room."""
+    style = f"display:flex;flex-wrap:wrap;gap:{gap};align-items:flex-start"
+    inner = "".join(f"<div>{mo.as_html(cell).text}</div>" for cell in cells)
+    return mo.Html(f'<div style="{style}">{inner}</div>')
 
 
 def _wrong(text: str) -> Any:
@@ -93,7 +118,7 @@ def _message(text: str, kind: str) -> Any:
 
 
 def working(title: str) -> Any:
-    """What turns while something is computed."""
+    """Sign that something is being computed."""
     return mo.status.spinner(title=title, remove_on_exit=True)
 
 
@@ -101,11 +126,16 @@ def surfaces(found: Sequence[ShownSurface]) -> Any:
     """Each rough surface as a map, beside its statistics."""
     rows = []
     for one in found:
-        numbers = shown.numbers_html(shown.number_rows(statistics_of(one)))
+        numbers = [row[:2] for row in shown.number_rows(statistics_of(one))]
         picture = _picture(shown.map_picture(one.found), f"heights of the {one.side} body")
-        table = mo.vstack([mo.md(f"**{one.side} surface**"), mo.Html(numbers)])
-        rows.append(mo.hstack([picture, table], wrap=True, justify="start", gap=1.0))
+        table = mo.vstack([mo.md(f"**{one.side} surface**"), _table(numbers)])
+        rows.append(_row([picture, table], gap="1rem"))
     return mo.vstack(rows) if rows else None
+
+
+def _table(rows: Sequence[Sequence[str]]) -> Any:
+    style = "<style>.numbers table{width:auto} .numbers td{padding:0.1rem 1.5rem 0.1rem 0}</style>"
+    return mo.Html(f'{style}<div class="numbers">{shown.table_html(rows)}</div>')
 
 
 def _picture(png: bytes, name: str) -> Any:
@@ -113,7 +143,7 @@ def _picture(png: bytes, name: str) -> Any:
 
 
 def picture_choice(answer: Answer) -> Any:
-    """Which figures of a result are drawn."""
+    """Choice of the figures of a result that are drawn."""
     names, first = ([], []) if answer.result is None else shown.picture_names(answer.result)
     return mo.ui.multiselect(names, value=first, label="figures")
 
@@ -124,9 +154,7 @@ def answer(given: Answer, figures: Any) -> Any:
     if given.result is None:
         return mo.vstack(wrong)
     said, outside, inside = shown.remarks(given.result)
-    pictures = [
-        _picture(shown.picture_of(given.result, name), name) for name in figures.value
-    ]
+    pictures = [_picture(shown.picture_of(given.result, name), name) for name in figures.value]
     rows = shown.number_rows(given.result.scalars(), given.errors)
     warned = ["{}: {}; {}".format(*row) for row in outside]
     parts = [
@@ -135,12 +163,12 @@ def answer(given: Answer, figures: Any) -> Any:
         _message(said, "success" if not wrong else "warn"),
         *(_message(text, "warn") for text in warned),
         figures,
-        mo.hstack(pictures, wrap=True, justify="start", gap=1.0),
-        mo.Html(shown.numbers_html(rows)),
+        _row(pictures, gap="1rem"),
+        _table(rows if given.errors else [row[:2] for row in rows]),
     ]
     if given.errors:
-        parts.append(mo.md("± is the error of the grid, estimated on pixels two and four times as wide."))
-    checks = mo.Html(shown.table_html([*outside, *inside]))
+        parts.append(mo.md(_ERRORS))
+    checks = _table([*outside, *inside])
     return mo.vstack([*parts, mo.accordion({"Validity: every number and its range": checks})])
 
 
@@ -151,10 +179,8 @@ def curve(given: Answer) -> Any:
     names, _ = shown.picture_names(given.result)
     pictures = [_picture(shown.picture_of(given.result, name), name) for name in names]
     csv = mo.download(exports.csv_bytes(given.result), "area.csv", label="Columns (CSV)")
-    table = mo.Html(shown.columns_html(given.result))
-    return mo.hstack(
-        [*pictures, mo.vstack([table, csv])], wrap=True, justify="start", gap=1.0
-    )
+    table = _table(shown.column_rows(given.result))
+    return _row([*pictures, mo.vstack([table, csv])], gap="1rem")
 
 
 # What is handed over --------------------------------------------------------------------------
@@ -166,7 +192,8 @@ def downloads(made: Made, given: Answer) -> Any:
         return None
     name, opened = made.opened.scene.name, made.opened
     stem = file_stem(name)
-    found = [mo.download(exports.toml_bytes(name, made.tables), f"{stem}.toml", label="Scene (TOML)")]
+    toml = exports.toml_bytes(name, made.tables)
+    found = [mo.download(toml, f"{stem}.toml", label="Scene (TOML)")]
     if given.result is not None:
         result = given.result
         report = mo.download(
@@ -177,7 +204,7 @@ def downloads(made: Made, given: Answer) -> Any:
             found.append(
                 mo.download(lambda: exports.csv_bytes(result), f"{stem}.csv", label="Curves (CSV)")
             )
-    return mo.hstack(found, wrap=True, justify="start")
+    return _row(found)
 
 
 def fmu(made: Made, native: bool) -> Any:

@@ -39,9 +39,7 @@ class Mover:
         return f"{number:g}" if self.unit == "-" else f"{number:g} {self.unit}"
 
 
-def movers_of(
-    made: Made, parts: Sequence[Part], typed: Mapping[str, str]
-) -> tuple[Mover, ...]:
+def movers_of(made: Made, parts: Sequence[Part], typed: Mapping[str, str]) -> tuple[Mover, ...]:
     """Sliders of a separation; none of a scene that a live page cannot carry.
 
     Parameters

@@ -38,12 +38,6 @@ def _(elements, start):
 
 
 @app.cell
-def _(layout, picks, start):
-    layout.choices(start, picks)
-    return
-
-
-@app.cell
 def _(elements, picks):
     chosen = elements.chosen_of(picks.value)
     return (chosen,)
@@ -60,6 +54,7 @@ def _(desk, mo, start):
     slide = mo.ui.switch(
         value=not desk.is_contact(start.scene), label="move the main quantities by sliders"
     )
+    None if desk.is_contact(start.scene) else slide
     return (slide,)
 
 
@@ -88,9 +83,8 @@ def _(computed, form, parts, start, values):
 
 
 @app.cell
-def _(desk, fields, layout, mo, parts, problems, slide, start):
-    form_ = layout.form(parts, fields, problems)
-    mo.vstack([form_] if desk.is_contact(start.scene) else [slide, form_])
+def _(fields, layout, parts, picks, problems, start):
+    layout.form(start, picks, parts, fields, problems)
     return
 
 

@@ -14,7 +14,7 @@ from attrs import field, frozen
 
 from ..errors import DescriptionError
 from ..extras import require
-from .desk import Desk, put_on_desk
+from .desk import HALVES, Desk, opened_scene, put_on_desk
 
 __all__ = ["HOST", "LocalServer", "local_server"]
 
@@ -61,10 +61,12 @@ def local_server(opened: Path | str | None = None, port: int = 0) -> Iterator[Lo
     ------
     MissingExtraError
         If marimo is not installed.
-    DescriptionError
-        If the port is taken.
+    ContactkitError
+        If the port is taken, or what is opened holds neither a contact nor a separation.
     """
     require("marimo", "the app")
+    if opened is not None:
+        opened_scene(opened, HALVES[0])
     listening = _listening(port)
     desk = put_on_desk(opened)
     token = secrets.token_urlsafe(24)
@@ -78,15 +80,11 @@ def local_server(opened: Path | str | None = None, port: int = 0) -> Iterator[Lo
 
 
 def _listening(port: int) -> socket.socket:
-    made = socket.socket()
-    made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
-        made.bind((HOST, port))
+        return socket.create_server((HOST, port))
     except (OSError, OverflowError) as error:
-        made.close()
         hint = f"{getattr(error, 'strerror', None) or error}; leave --port out for a free one"
         raise DescriptionError("--port", port, "be a free port", hint=hint) from None
-    return made
 
 
 def _application(desk: Desk, token: str) -> _Asgi:
@@ -102,8 +100,10 @@ def _application(desk: Desk, token: str) -> _Asgi:
 
 
 def _guarded(application: _Asgi, host: str) -> _Asgi:
-    """Refuse other names of the host, as of a page that is rebound to it, and set the policy."""
-    allowed = {host.encode(), host.replace(HOST, "localhost").encode()}
+    """Refuse requests of other pages, also by names rebound to this host; set the policy."""
+    hosts = (host, host.replace(HOST, "localhost"))
+    names = {name.encode() for name in hosts}
+    origins = {None, *(f"http://{name}".encode() for name in hosts)}
     policy = _POLICY.format(host=host)
     headers = [
         (b"content-security-policy", policy.encode()),
@@ -115,8 +115,8 @@ def _guarded(application: _Asgi, host: str) -> _Asgi:
         if scope["type"] not in ("http", "websocket"):
             await application(scope, receive, send)
             return
-        given = {name: value for name, value in scope["headers"]}
-        if given.get(b"host") not in allowed:
+        given = dict(scope["headers"])
+        if given.get(b"host") not in names or given.get(b"origin") not in origins:
             await _refuse(scope, send)
             return
 

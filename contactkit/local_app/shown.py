@@ -1,7 +1,8 @@
-"""What the app shows of a result, as HTML and pictures; nothing here knows a page."""
+"""Numbers, validity and figures of a result, as rows of texts and pictures."""
 
 from __future__ import annotations
 
+import math
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -11,19 +12,19 @@ from ..app.report_page import validity_rows
 from ..export.html import table
 from ..plot import style
 from ..plot.accessors.base import pictures
+from ..plot.axis_units import in_print
 from ..plot.roughness import heights_map
 from ..scene.curve import Curve
 from ..scene.result import Result
-from ..units import quantity_text
+from ..units import readable_unit
 
 if TYPE_CHECKING:
     from ..analyses.heights import SurfaceHeights
 
 __all__ = [
-    "columns_html",
+    "column_rows",
     "map_picture",
     "number_rows",
-    "numbers_html",
     "picture_names",
     "picture_of",
     "remarks",
@@ -31,7 +32,8 @@ __all__ = [
 ]
 
 _FIRST = ("pressure", "contact", "areas", "gap", "forces")
-_DPI = 110
+_DPI = 130  # 560 pixels wide on a screen, and sharp where those are small
+_SIZE = (5.6, 4.2)  # [inch]: read on a phone, two beside each other on a screen
 _HIDDEN = ("residual", "energy")  # of the solver, in the report and in the files
 
 
@@ -54,7 +56,9 @@ def map_picture(found: SurfaceHeights) -> bytes:
 
 def _png(ax: Any) -> bytes:
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
-        return style.save(ax.figure, Path(folder) / "figure.png", dpi=_DPI).read_bytes()
+        ax.figure.set_size_inches(_SIZE)
+        path = style.save(ax.figure, Path(folder) / "figure.png", dpi=_DPI, bbox_inches="tight")
+        return path.read_bytes()
 
 
 def number_rows(
@@ -65,9 +69,17 @@ def number_rows(
     for name, (value, unit) in numbers.items():
         if name in _HIDDEN:
             continue
-        shown = value if isinstance(value, str) else quantity_text(float(value), unit)
+        shown = value if isinstance(value, str) else _quantity(float(value), unit)
         rows.append((name.replace("_", " "), shown, _error((errors or {}).get(name))))
     return rows
+
+
+def _quantity(value: float, unit: str) -> str:
+    if math.isnan(value):
+        return "none"  # of an event that did not occur
+    factor, name = readable_unit(value, unit)
+    number = f"{value / factor:.4g}"
+    return number if name in ("-", "") else f"{number} {in_print(name)}"
 
 
 def _error(error: float | None) -> str:
@@ -76,24 +88,19 @@ def _error(error: float | None) -> str:
     return f"± {100.0 * error:.2g} %" if error < 1.0 else "not resolved by the grid"
 
 
-def numbers_html(rows: Sequence[tuple[str, str, str]]) -> str:
-    """The rows as a table."""
-    return table([row if any(one[2] for one in rows) else row[:2] for row in rows])
-
-
 def table_html(rows: Sequence[Sequence[str]]) -> str:
     """Rows of texts as a table."""
     return table(rows)
 
 
-def columns_html(curve: Curve) -> str:
-    """Columns of a curve as a table, with their units."""
+def column_rows(curve: Curve) -> list[list[str]]:
+    """Columns of a curve as rows of texts with their units, under their names."""
     columns = curve.table()
     rows = [[name.replace("_", " ") for name in columns]]
     for values in zip(*(column for column, _ in columns.values()), strict=True):
         units = (unit for _, unit in columns.values())
-        rows.append([quantity_text(float(v), u) for v, u in zip(values, units, strict=True)])
-    return table(rows)
+        rows.append([_quantity(float(v), u) for v, u in zip(values, units, strict=True)])
+    return rows
 
 
 def remarks(result: Result) -> tuple[str, list[tuple[str, str, str]], list[tuple[str, str, str]]]:
@@ -101,4 +108,5 @@ def remarks(result: Result) -> tuple[str, list[tuple[str, str, str]], list[tuple
     numbers = result.validity
     wrong = validity_rows([one for one in numbers if one.is_valid is False])
     right = validity_rows([one for one in numbers if one.is_valid is not False])
-    return f"{result.status}: {result.message}", wrong, right
+    said = result.message
+    return said if said.startswith(result.status) else f"{result.status}: {said}", wrong, right

@@ -101,10 +101,10 @@ def widgets_of(
     ('loading.speed', 'quantity', 'm/s', 'be positive and finite')
     """
     resolved(kind)
-    told, found = _parameters(kind), list[Widget]()
+    described, found = _parameters(kind), list[Widget]()
     for one in attrs.fields(kind):
         if one.init and one.name[0] != "_" and one.name not in skip:
-            found += _of_field(kind, one, f"{path}." if path else "", value, told)
+            found += _of_field(kind, one, f"{path}." if path else "", value, described)
     return tuple(found)
 
 
@@ -121,7 +121,7 @@ def _of_field(
     one: attrs.Attribute[Any],
     before: str,
     owner: object | None,
-    told: Mapping[str, str],
+    described: Mapping[str, str],
 ) -> list[Widget]:
     place, unit = f"{before}{one.name}", one.metadata.get("unit", "")
     default = None if one.default is attrs.NOTHING else one.default
@@ -141,7 +141,7 @@ def _of_field(
         expected="" if takes in ("choice", "flag", "text") else _expected(kind, one),
         default=_text(default, unit),
         is_required=one.default is attrs.NOTHING,
-        help=told.get(one.name, ""),
+        help=described.get(one.name, ""),
     )
     family = _family(one)
     return [widget] if family is None else _of_family(widget, family, value)
