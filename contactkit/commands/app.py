@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import webbrowser
-from collections.abc import Iterable
 
 import click
 
 from . import options
 from .terminal import say
 
-__all__ = ["app"]
+__all__ = ["SCENES", "app"]
 
 
-def _scenes() -> Iterable[str]:
-    return ("contact-stop", "head-disk", "tip-landing")
+SCENES = ("contact-stop", "head-disk", "tip-landing")
+"""Scenes of contactkit that the app takes: those that are no device."""
 
 
 @click.command(cls=options.Command)
-@click.argument("scene", metavar="[SCENE|MAP]", required=False, type=options.Names(_scenes))
+@click.argument("scene", metavar="[SCENE|MAP]", required=False, type=options.Names(lambda: SCENES))
 @click.option("--port", type=int, default=0, help="Port on this machine; else a free one.")
 @click.option("--no-browser", is_flag=True, help="Print the address only.")
 def app(scene: str | None, port: int, no_browser: bool) -> None:

@@ -43,7 +43,6 @@ _GROUPS = {
 """Sections of a form by the paths in them."""
 
 _ERRORS = "± is the error of the grid, estimated on pixels two and four times as wide."
-_WIDTH = "min(560px, 88vw)"  # of a picture: two beside each other on a screen, one on a phone
 
 
 # What is opened and chosen --------------------------------------------------------------------
@@ -127,7 +126,9 @@ def surfaces(found: Sequence[ShownSurface]) -> Any:
     rows = []
     for one in found:
         numbers = [row[:2] for row in shown.number_rows(statistics_of(one))]
-        picture = _picture(shown.map_picture(one.found), f"heights of the {one.side} body")
+        picture = _picture(
+            shown.map_picture(one.found, one.holes), f"heights of the {one.side} body"
+        )
         table = mo.vstack([mo.md(f"**{one.side} surface**"), _table(numbers)])
         rows.append(_row([picture, table], gap="1rem"))
     return mo.vstack(rows) if rows else None
@@ -139,7 +140,8 @@ def _table(rows: Sequence[Sequence[str]]) -> Any:
 
 
 def _picture(png: bytes, name: str) -> Any:
-    return mo.image(png, alt=name, width=_WIDTH)
+    width = int.from_bytes(png[16:20], "big") / shown.DENSITY  # of the head of a PNG
+    return mo.image(png, alt=name, width=f"min({width:.0f}px, 88vw)")
 
 
 def picture_choice(answer: Answer) -> Any:

@@ -18,7 +18,7 @@ def _():
 
 @app.cell
 def _(desk, here, layout, mo):
-    half = mo.ui.radio(desk.HALVES, value=here.half, inline=True)
+    half = mo.ui.radio(desk.HALVES, value=here.half, inline=True, label="without a file")
     drop = layout.drop_area()
     layout.head(half, drop)
     return drop, half

@@ -19,9 +19,13 @@ from ..scene.result import Result
 from ..units import readable_unit
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ..analyses.heights import SurfaceHeights
 
 __all__ = [
+    "DENSITY",
     "column_rows",
     "map_picture",
     "number_rows",
@@ -32,7 +36,9 @@ __all__ = [
 ]
 
 _FIRST = ("pressure", "contact", "areas", "gap", "forces")
-_DPI = 130  # 560 pixels wide on a screen, and sharp where those are small
+_DPI = 130  # of pictures, see `DENSITY`
+DENSITY = 1.3
+"""Pixels of a picture to one of the page, which is sharp where those of a screen are small."""
 _SIZE = (5.6, 4.2)  # [inch]: read on a phone, two beside each other on a screen
 _HIDDEN = ("residual", "energy")  # of the solver, in the report and in the files
 
@@ -49,9 +55,14 @@ def picture_of(owner: Any, name: str) -> bytes:
     return _png(pictures(owner)[name]())
 
 
-def map_picture(found: SurfaceHeights) -> bytes:
-    """PNG of heights as a map."""
-    return _png(heights_map(found.heights, found.pixel_size))
+def map_picture(found: SurfaceHeights, holes: NDArray[np.bool_] | None) -> bytes:
+    """PNG of heights as a map, holes in grey."""
+    import numpy as np
+
+    known: Any = found.heights if holes is None else np.ma.array(found.heights, mask=holes)
+    ax = heights_map(known, found.pixel_size)
+    ax.set_facecolor("0.6")
+    return _png(ax)
 
 
 def _png(ax: Any) -> bytes:

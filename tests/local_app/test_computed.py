@@ -59,6 +59,7 @@ def ball():
     return answer_of(form("contact", chosen, values).opened)
 
 
+@pytest.mark.slow
 def test_a_ball_has_hertz_pressure_within_its_stated_error(ball):
     numbers, errors = ball.result.scalars(), ball.errors
     peak, area = numbers["max_pressure"][0], numbers["corrected_contact_area"][0]
@@ -68,6 +69,7 @@ def test_a_ball_has_hertz_pressure_within_its_stated_error(ball):
     assert abs(area / hertz_area - 1.0) < errors["corrected_contact_area"] < 0.05
 
 
+@pytest.mark.slow
 def test_area_over_load_of_a_ball_follows_hertz_within_its_bounds(ball):
     curve = area_with_error(ball.result)
     loads = FORCE * np.array([0.125, 0.25, 0.5, 1.0])
@@ -122,6 +124,7 @@ def test_a_problem_of_a_plan_is_returned_and_not_raised():
 
 
 @pytest.mark.errors
+@pytest.mark.slow
 def test_a_curve_that_cannot_be_solved_is_a_problem(ball, monkeypatch):
     def fails(plan):
         raise ck.ConvergenceError("it does not converge")

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 import contactkit as ck
+from contactkit.commands.app import SCENES
 from contactkit.local_app.desk import Desk, is_contact, opened_scene
 from contactkit.local_app.exports import toml_bytes
 from contactkit.local_app.form import made_of, parts_of
+from contactkit.models.library import bundled_scenes
 
 
 class Dropped(NamedTuple):
@@ -104,3 +106,13 @@ def test_the_half_follows_from_what_is_opened(tmp_path):
         desk = Desk.new(opened)
         assert desk.half == half
         desk.close()
+
+
+def test_completion_offers_the_bundled_scenes_that_the_app_takes():
+    def is_taken(name):
+        try:
+            return opened_scene(name, "contact") is not None
+        except ck.PlanError:
+            return False
+
+    assert sorted(SCENES) == sorted(filter(is_taken, bundled_scenes()))

@@ -125,7 +125,7 @@ def server():
 
 def ask(address, **headers):
     """Status, address at the end and headers of an answer."""
-    request = urllib.request.Request(address, headers=headers)  # noqa: S310
+    request = urllib.request.Request(address, headers=headers)
     opener = urllib.request.build_opener(urllib.request.ProxyHandler({}), Cookies)
     try:
         with opener.open(request, timeout=30) as answer:
@@ -167,6 +167,8 @@ def test_without_marimo_the_extra_is_named(monkeypatch):
     from contactkit.local_app import server
 
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
-    with pytest.raises(MissingExtraError, match=r"pip install contactkit\[app\]"):
-        with server.local_server():
-            pass
+    with (
+        pytest.raises(MissingExtraError, match=r"pip install contactkit\[app\]"),
+        server.local_server(),
+    ):
+        pass
