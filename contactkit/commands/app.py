@@ -34,5 +34,7 @@ def app(scene: str | None, port: int, no_browser: bool) -> None:
             webbrowser.open(server.address)
         try:
             server.run()
-        except KeyboardInterrupt:  # the usual end, once every request is answered
+        except KeyboardInterrupt as ended:  # once every request is answered
+            if type(ended) is not KeyboardInterrupt:
+                raise  # SIGTERM, which has an exit status of its own
             say("closed")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import re
 import tempfile
 from collections.abc import Sequence
@@ -138,6 +139,7 @@ _DESKS: list[Desk] = []
 def put_on_desk(opened: Path | str | None) -> Desk:
     """Make the desk of this process: a server has one."""
     _DESKS[:] = [Desk.new(opened)]
+    atexit.register(_DESKS[0].close)  # where no server closes it
     return _DESKS[0]
 
 

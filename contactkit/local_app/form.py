@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from copy import deepcopy
+from functools import cache
 from typing import Any
 
 import attrs
@@ -27,6 +28,7 @@ from ..kinds import (
     SEPARATION_LOADINGS,
     SURFACES,
 )
+from ..liquids.liquid import Liquid
 from ..scene.interface import Body
 from ..scene.materials import Layer, Material, Stack
 from ..scene.meniscus import Meniscus
@@ -149,14 +151,14 @@ def _of_body(scene: Any, side: str) -> Iterator[Choice]:
     shapes = [name for name, kind in kinds.items() if is_complete(kind)]
     chosen = SURFACES.name_of(type(body.surface))
     yield _choice(f"{path}.surface", f"{side} surface", shapes, chosen)
-    solids = (RIGID, OWN, *library_names("materials.toml"))
+    solids = (RIGID, OWN, *_materials())
     yield _choice(f"{path}.solid", f"{side} solid", solids, _substrate_name(body))
     if isinstance(scene, ContactScene):
         stack = body.stack
         layers = stack.layers if stack is not None else ()
         for i in range(_LAYERS):
             name = _name_of(layers[i].material) if i < len(layers) else NONE
-            options = (NONE, *library_names("materials.toml"))
+            options = (NONE, *_materials())
             yield _choice(f"{path}.solid.layers.{i}", f"layer {i + 1}, {side}", options, name)
 
 
@@ -175,16 +177,26 @@ def _substrate_name(body: Body) -> str:
 
 def _name_of(material: object) -> str:
     """Name of a material in the library; empty if it is not of it."""
-    names = library_names("materials.toml")
-    return next((name for name in names if load_material(name) == material), "")
+    return next((name for name, one in _materials().items() if one == material), "")
+
+
+@cache
+def _materials() -> dict[str, Material]:
+    """Materials of the library by name; its file is read once for each of them."""
+    return {name: load_material(name) for name in library_names("materials.toml")}
+
+
+@cache
+def _liquids() -> dict[str, Liquid]:
+    return {name: load_liquid(name) for name in library_names("liquids.toml")}
 
 
 def _of_liquid(scene: Any) -> Choice:
-    meniscus, names = scene.interface.meniscus, library_names("liquids.toml")
+    meniscus, known = scene.interface.meniscus, _liquids()
     chosen = NONE
     if meniscus is not None:
-        chosen = next((name for name in names if load_liquid(name) == meniscus.liquid), "")
-    return _choice("interface.meniscus.liquid", "liquid", (NONE, *names), chosen)
+        chosen = next((name for name, one in known.items() if one == meniscus.liquid), "")
+    return _choice("interface.meniscus.liquid", "liquid", (NONE, *known), chosen)
 
 
 # The widgets of what is chosen ----------------------------------------------------------------

@@ -40,6 +40,7 @@ _DPI = 130  # of pictures, see `DENSITY`
 DENSITY = 1.3
 """Pixels of a picture to one of the page, which is sharp where those of a screen are small."""
 _SIZE = (5.6, 4.2)  # [inch]: read on a phone, two beside each other on a screen
+_ROUND_OFF = 1e-9  # the solver's own tolerance is above
 _HIDDEN = ("residual", "energy")  # of the solver, in the report and in the files
 
 
@@ -94,8 +95,8 @@ def _quantity(value: float, unit: str) -> str:
 
 
 def _error(error: float | None) -> str:
-    if error is None:
-        return ""
+    if error is None or error < _ROUND_OFF:
+        return ""  # of what does not depend on the grid
     return f"± {100.0 * error:.2g} %" if error < 1.0 else "not resolved by the grid"
 
 

@@ -169,6 +169,7 @@ def test_numbers_that_did_not_occur_are_none_and_not_nan():
     rows = number_rows({"break_time": (math.nan, "s"), "area": (2e-12, "m2")}, {"area": 0.032})
     assert rows == [("break time", "none", ""), ("area", "2 µm²", "± 3.2 %")]
     assert number_rows({"a": (1.0, "m")}, {"a": math.inf})[0][2] == "not resolved by the grid"
+    assert number_rows({"a": (1.0, "m")}, {"a": 1e-16})[0][2] == ""
 
 
 @pytest.mark.slow
