@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import secrets
 import shutil
 import socket
@@ -113,7 +114,7 @@ def _guarded(application: _Asgi, host: str) -> _Asgi:
 
     async def guarded(scope: _Message, receive: Any, send: Any) -> None:
         if scope["type"] not in ("http", "websocket"):
-            await application(scope, receive, send)
+            await application(scope, _closing(application, receive), send)
             return
         given = dict(scope["headers"])
         if given.get(b"host") not in names or given.get(b"origin") not in origins:
@@ -128,6 +129,27 @@ def _guarded(application: _Asgi, host: str) -> _Asgi:
         await application(scope, receive, with_policy)
 
     return guarded
+
+
+def _closing(application: Any, receive: Callable[[], Awaitable[Any]]) -> Any:
+    """Messages of the server, at whose end the sessions are closed.
+
+    marimo leaves that to the lifespan of an application, which a mounted one does not have: a
+    thread would wait for the next request of each page for ever, and Python for the thread.
+    """
+
+    async def received() -> Any:
+        message = await receive()
+        if message["type"] == "lifespan.shutdown":
+            for route in getattr(application, "routes", ()):
+                state = getattr(getattr(route, "app", None), "state", None)
+                manager = getattr(state, "session_manager", None)
+                closed = manager.shutdown() if manager is not None else None
+                if inspect.isawaitable(closed):
+                    await closed
+        return message
+
+    return received
 
 
 async def _refuse(scope: _Message, send: Any) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import signal
 import subprocess
@@ -161,6 +162,32 @@ def test_the_server_answers_this_machine_with_its_token_only(server):
     out, err = process.communicate(timeout=30)
     assert (process.returncode, out.splitlines()[-1]) == (0, "closed")
     assert "Traceback" not in err
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+def test_it_ends_with_a_page_open():
+    """Also where SIGINT was ignored at the start, as by a shell in the background."""
+    pytest.importorskip("marimo", reason=REASON)
+    from websockets.sync.client import connect
+
+    words = [sys.executable, "-m", "contactkit", "app", "--no-browser"]
+    process = subprocess.Popen(
+        words,
+        stdout=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN),
+    )
+    try:
+        address = process.stdout.readline().strip()
+        host, token = re.search(r"http://([^/]*)/\?access_token=(.*)", address).groups()
+        page = f"ws://{host}/ws?session_id=s_abcdef&access_token={token}"
+        with connect(page, proxy=None, open_timeout=30) as opened:
+            assert "kernel-ready" in str(opened.recv(timeout=30))
+            process.send_signal(signal.SIGINT)
+            assert process.wait(timeout=30) == 0
+    finally:
+        process.kill()
+        process.communicate()
 
 
 def test_without_marimo_the_extra_is_named(monkeypatch):
