@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from attrs import frozen
 
 from ..errors import ContactkitError
-from ..live_page.liquid import liquid_table
+from ..liquids.temperature_table import liquid_table
 from ..live_page.scene import check_scene, kernel_scene
 from ..live_page.sliders import Slider, family_sliders, sliders_of
 from .form import Made, Part

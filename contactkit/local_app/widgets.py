@@ -222,16 +222,21 @@ def _is_plain(kind: type, family: type) -> bool:
 def _expected(kind: type, one: attrs.Attribute[Any]) -> str:
     """Range of a field: what its validator says of a huge number, or of one that is none."""
     words = [w for m in _members(one.type) if get_origin(m) is Literal for w in get_args(m)]
-    also = "".join(f", or {word!r}" for word in words)
+
+    def with_words(expected: str) -> str:
+        """The range, and words that it does not name itself."""
+        more = [f"or {word!r}" for word in words if repr(word) not in expected]
+        return ", ".join([*filter(None, [expected]), *more]).removeprefix("or ")
+
     for probe in (_HUGE, math.nan):
         try:
             if one.validator is not None:
                 one.validator(object.__new__(kind), one, probe)
         except DescriptionError as error:
-            return error.expected + also
+            return with_words(error.expected)
         except (AttributeError, TypeError, ValueError):  # it looks at other fields first
             continue
-    return also.removeprefix(", or ")
+    return with_words("")
 
 
 def _parameters(kind: type) -> dict[str, str]:

@@ -35,7 +35,7 @@ def widget(kind, name, value=None):
         (Meniscus, "count", "whole", "-", "be a whole number of at least 1"),
         (SelfAffineRoughness, "hurst", "number", "-", "lie above 0 and not above 1"),
         (Material, "poisson_ratio", "number", "-", "lie above -1 and not above 0.5"),
-        (Rupture, "gap", "quantity", "m", "be positive and finite, or 'limit', or 'zero-neck'"),
+        (Rupture, "gap", "quantity", "m", "be positive and finite, 'limit' or 'zero-neck'"),
         (TensionLimit, "strength", "quantity", "Pa", "be positive and finite, or 'vapour'"),
     ],
 )
