@@ -64,9 +64,9 @@ def conditions(measured: Mapping[str, str]) -> str:
     load = f", load average {measured['load']}" if "load" in measured else ""
     return (
         f"Measured {measured['date']} on {measured['processor']}{load}, one thread; "
-        f"{measured['versions']}. Errors and counts hold on any machine and are recomputed by "
-        "`tests/demand_pages`; seconds are CPU time of the process (`time.process_time`), the "
-        "least of several runs, and differ between machines."
+        f"{measured['versions']}. Errors and counts hold on any machine, and tests compute them "
+        "again; seconds are CPU time of the process, the least of several runs, and differ "
+        "between machines."
     )
 
 
