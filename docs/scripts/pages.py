@@ -54,7 +54,7 @@ PAGES: Mapping[str, Page] = {
     "gradients": Page("img/gradient-*.png", 0.2, (("gradients",),)),
     "adhesion": Page("adhesion.md: levels of a curve, and its picture", 5, _measured("adhesion")),
     "pictures": Page(
-        "img/: figures of shipped scenes and examples; head-disk.md, accuracy.md: head-disk",
+        "img/: figures of shipped scenes and examples; head-disk.md: head-disk",
         20,
         (("pictures.py",),),
     ),

@@ -94,14 +94,12 @@ def draw(data: dict[str, Any]) -> Figure:
 
 
 def table(data: dict[str, Any]) -> Table:
-    """Values and errata."""
+    """Printed and right values."""
     rows = []
     for (case, number), (printed, right) in zip(NUMBERS, data["values"], strict=True):
         off = 100.0 * (printed - right) / abs(right)
-        text = erratum(number) or "none"
-        rows.append([case, f"({number})", float(printed), float(right), f"{off:+.1f}", text])
-    head = ["case", "equation", "as printed [N]", "right [N]", "off by [%]", "erratum"]
-    return Table(head, rows)
+        rows.append([f"({number}) {case}", float(printed), float(right), f"{off:+.1f}"])
+    return Table(["equation", "as printed [N]", "right [N]", "off by [%]"], rows)
 
 
 def check(data: dict[str, Any]) -> list[Check]:
