@@ -12,7 +12,7 @@ from contactkit.benchmarks.table import STUDIES, AccuracyStudy
 from contactkit.plot.axis_units import in_prose
 from contactkit.work_precision import Point
 
-from .page import conditions, load, machine, number, picture, table
+from .page import conditions, folded, load, machine, number, picture, table
 
 __all__ = ["ANALYSES", "NAME", "digit", "draw", "measure", "page", "points_of", "shown"]
 
@@ -281,7 +281,10 @@ def _peers(found: Mapping[str, Any]) -> list[str]:
         "difference of both fluxes. *Other* is the fastest program that is accurate to 1e-8 "
         "(adhesion: 1e-6); *>*: none is, and it would take longer still. Rough contacts with "
         "set-up. [All programs, and contactkit without numba and ducc0](peers.json).",
-        table(("problem, pixels a side", "contactkit", "other", "times"), rows),
+        folded(
+            "The table: seconds of both, and their ratio",
+            table(("problem, pixels a side", "contactkit", "other", "times"), rows),
+        ),
         *found["left_out"],
     ]
 

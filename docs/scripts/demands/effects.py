@@ -13,7 +13,7 @@ from contactkit.kinds import CONTACT_EFFECTS, SEPARATION_EFFECTS, SLIDING_EFFECT
 from contactkit.plot.axis_units import in_prose
 
 from .effect_scenes import ENTRIES
-from .page import conditions, machine, picture, slug, table
+from .page import conditions, machine, picture, table
 
 __all__ = ["NAME", "draw", "lists", "measure", "page"]
 
@@ -76,13 +76,13 @@ def page(data: Mapping[str, Any]) -> str:
         rows = [_row(kind, data["effects"][kind.name]) for kind in registry]
         head = ("effect", "with [s]", "without [s]", "memory saved")
         parts += [f"## {title}", table(head, rows)]
-        parts += [_section(kind, data["effects"][kind.name]) for kind in registry]
+        parts.append("\n".join(_section(kind, data["effects"][kind.name]) for kind in registry))
     parts += ["## Measured", conditions(data["measured"]) + " [Data](effects.json)."]
     return in_prose("\n\n".join(parts) + "\n")
 
 
 def _row(kind: Any, found: Mapping[str, Any]) -> tuple[str, ...]:
-    name = f"[{kind.name}](#{slug(kind.__name__)})"
+    name = f"`{kind.name}`"
     with_it, without = found["with"], found["without"]
     if without is None:
         return name, _seconds(with_it["seconds"]), "-", "-"
@@ -111,17 +111,13 @@ def _explained() -> Mapping[str, str]:
 
 def _section(kind: Any, found: Mapping[str, Any]) -> str:
     entry = ENTRIES[kind]
-    what = f"{kind.summary[0].upper()}{kind.summary[1:]}"
     ranges = ", ".join(one.partition(" (")[0] for one in found["validity"])
     without = "" if entry.instead == "nothing" else f"; without it {entry.instead}"
-    lines = [
-        f"### {kind.__name__}",
-        f"[{what}]({_explained()[kind.name]}).",
-        f"$$ {entry.formula} $$",
+    return (
+        f"- [`{kind.__name__}`]({_explained()[kind.name]}), {kind.summary}: ${entry.formula}$. "
         f"Source: {'; '.join(found['sources'])}. {f'Validity: {ranges}. ' if ranges else ''}"
-        f"Measured on {entry.what}{without}.",
-    ]
-    return "\n\n".join(lines)
+        f"Measured on {entry.what}{without}."
+    )
 
 
 def draw(data: Mapping[str, Any]) -> None:

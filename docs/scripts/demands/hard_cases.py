@@ -35,7 +35,7 @@ def page(data: Mapping[str, Any]) -> str:
     ]
     for half, title in _ROOMS.items():
         some = [(case, data["cases"][key]) for key, case in HARD_CASES.items() if case.half == half]
-        parts += [f"## {title}", *(_told(case, one) for case, one in some)]
+        parts += [f"## {title}", *(_case(case, one) for case, one in some)]
     parts += ["## Measured", conditions(data["measured"]) + " [Data](hard-cases.json)."]
     return in_prose("\n\n".join(parts) + "\n")
 
@@ -48,7 +48,7 @@ def _ours(found: Mapping[str, Any]) -> str:
     return "round-off" if found["ours"] < 2e-16 else f"error {number(found['ours'])}"
 
 
-def _told(case: HardCase, found: Mapping[str, Any]) -> str:
+def _case(case: HardCase, found: Mapping[str, Any]) -> str:
     """A case: why it is hard, and a line for each method."""
     lines = [
         f"**{case.title}** (`{case.name}`). {case.why}\n",

@@ -18,11 +18,11 @@ from contactkit.files.scenes import write_whole
 __all__ = [
     "SHOWN",
     "conditions",
+    "folded",
     "load",
     "machine",
     "number",
     "picture",
-    "slug",
     "store",
     "table",
     "write",
@@ -84,9 +84,9 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join(lines)
 
 
-def slug(title: str) -> str:
-    """Anchor of a heading, as Markdown makes it."""
-    return re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", title).strip().lower())
+def folded(title: str, text: str) -> str:
+    """Text that a reader unfolds."""
+    return f'<details markdown="1">\n<summary>{title}</summary>\n\n{text}\n\n</details>'
 
 
 def load(name: str) -> dict[str, Any]:
