@@ -62,9 +62,13 @@ def _page(
     parts += [f"**Claim.** {page.claim}", f"**Verdict.** {page.verdict}"]
     if page.choices:
         parts.append(f"**Our choices.** {page.choices}")
-    parts.append("## Checks")
     held = [("yes" if c.holds else "**no**", c.statement, c.measured) for c in checks]
-    parts.append(_grid(("holds", "statement", "measured"), held))
+    n_held = sum(c.holds for c in checks)
+    parts += _folded(
+        f"Checks: {n_held} of {len(checks)} hold",
+        _grid(("holds", "statement", "measured"), held),
+        is_open=n_held < len(checks),
+    )
     if table is not None:
         parts += _numbers(script, table)
     parts += [_made(script, made), *_ranges(made.notes)]
@@ -76,7 +80,13 @@ def _numbers(script: Script, table: Table) -> list[str]:
     if len(table.head) > _COLUMNS or len(table.rows) > _ROWS:
         return [f"Numbers: [{script.slug}.csv]({script.slug}.csv)."]
     rows = [[_cell(value) for value in row] for row in table.rows]
-    return ["## Numbers", _grid(table.head, rows)]
+    return _folded("Numbers", _grid(table.head, rows))
+
+
+def _folded(title: str, text: str, is_open: bool = False) -> list[str]:
+    """Parts of a page that a reader unfolds."""
+    begin = f'<details markdown="1"{" open" if is_open else ""}>\n<summary>{title}</summary>'
+    return [begin, text, "</details>"]
 
 
 def _made(script: Script, made: Made) -> str:

@@ -20,6 +20,13 @@ __all__ = ["NAME", "draw", "lists", "measure", "page"]
 NAME = "effects"
 ROOT = Path(__file__).parents[3]
 KINDS = {"Separation": SEPARATION_EFFECTS, "Sliding": SLIDING_EFFECTS, "Contact": CONTACT_EFFECTS}
+# Scenes of several effects, by what the page calls them.
+_SCENES = {
+    "the oil film": "a disc of 3.175 mm pulled by 40 N off 0.16 mm3 of engine oil, from 5 to 25 um",
+    "the drawn bridge": "1 mm3 of an oil of 1 Pa.s between spheres of 4 mm, drawn from 50 um to "
+    "1.3 mm at 0.5 mm/s",
+    "the rough contact": "steel under a rough flat, 2 um wide, 256 x 256 pixels, 200 MPa",
+}
 _WHERE = ("models", "examples", "contactkit/data/templates")
 
 
@@ -71,6 +78,7 @@ def page(data: Mapping[str, Any]) -> str:
         "Seconds of CPU of plan and run; memory is the peak of what Python and numpy allocate. "
         "Some scenes run longer without the effect: a film that cavitates or breaks early needs "
         "fewer steps.",
+        f"Scenes: {'; '.join(f'*{name}* is {what}' for name, what in _SCENES.items())}.",
     ]
     for title, registry in KINDS.items():
         rows = [_row(kind, data["effects"][kind.name]) for kind in registry]
@@ -112,11 +120,14 @@ def _explained() -> Mapping[str, str]:
 def _section(kind: Any, found: Mapping[str, Any]) -> str:
     entry = ENTRIES[kind]
     ranges = ", ".join(one.partition(" (")[0] for one in found["validity"])
+    what = entry.what
+    for name, scene in _SCENES.items():
+        what = what.replace(scene, name)
     without = "" if entry.instead == "nothing" else f"; without it {entry.instead}"
     return (
         f"- [`{kind.__name__}`]({_explained()[kind.name]}), {kind.summary}: ${entry.formula}$. "
         f"Source: {'; '.join(found['sources'])}. {f'Validity: {ranges}. ' if ranges else ''}"
-        f"Measured on {entry.what}{without}."
+        f"Measured on {what}{without}."
     )
 
 

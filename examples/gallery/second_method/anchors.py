@@ -145,7 +145,7 @@ def agree(what: str, ours: Any, second: Any, within: float = 0.01) -> Check:
     one, two = np.ravel(np.asarray(ours, float)), np.ravel(np.asarray(second, float))
     off = float(np.abs(one / two - 1.0).max())
     return Check(
-        f"{what}: as by a second method, with the numbers of the caption, to {100.0 * within:g} %",
+        f"{what}: as by a second method, to {100.0 * within:g} %",
         bool(off < within),
         f"largest difference {100.0 * off:.1e} %",
     )
