@@ -195,7 +195,7 @@ def page(data: Mapping[str, Any]) -> str:
     ]
     for half in ("contact", "separation"):
         some = [(one, studies[name]) for name, one in STUDIES.items() if one.half == half]
-        head = ("study", "error of, against", "largest and least error", "a digit more")
+        head = ("study: error of, against", "largest and least error", "a digit more")
         notes = [f"- `{one.name}`: {one.note}" for one, _ in some if one.note]
         parts += [f"## {half.capitalize()}", table(head, (_summary(*each) for each in some))]
         parts.append("\n".join(notes))
@@ -225,14 +225,14 @@ def _seconds(value: float | None) -> str:
 
 def _summary(study: AccuracyStudy, points: Points) -> tuple[str, ...]:
     """A study: what its settings span, and what a digit costs where they buy digits."""
-    title = f"`{study.name}`: {study.title}"
+    title = f"`{study.name}`: {study.title}; {study.quantity} against {study.judge}"
     if study.digits:
         span, more = _span(points, study.digits), _costs(digit(points, study.digits))
     else:
         some = [p for p in points if p["error"] is not None and not p["is_model"]]
         some.sort(key=lambda p: -p["error"])
         span, more = "; ".join(_at(p["error"], p["seconds"]) for p in (some[0], some[-1])), "-"
-    return title, f"{study.quantity}; {study.judge}", span.replace(", ", "; "), more
+    return title, span.replace(", ", "; "), more
 
 
 def _at(error: float, seconds: float) -> str:

@@ -104,7 +104,7 @@ def _seconds(value: float) -> str:
 
 def _memory(value: float) -> str:
     """Memory [MiB], in the unit that suits it."""
-    return f"{value:.1f} MiB" if abs(value) >= 0.95 else f"{1024.0 * value:.0f} KiB"
+    return f"{value:.1f} MiB" if abs(value) >= 0.95 else f"{round(1024.0 * value)} KiB"
 
 
 @cache
