@@ -42,8 +42,10 @@ ENTRIES = entries()
 
 @cache
 def statements(page):
-    lines = (PAGE.parent / page).read_text("utf-8").splitlines()
-    return [line.split(" | ")[1] for line in lines if line.startswith(("| yes |", "| **no** |"))]
+    """Those of the checks of a page of the gallery."""
+    text = (PAGE.parent / page).read_text("utf-8")
+    checks = text.partition("<summary>Checks")[2].partition("</details>")[0]
+    return [line.split(" | ")[0] for line in checks.splitlines() if line.startswith("| ")]
 
 
 @cache

@@ -62,17 +62,22 @@ def _page(
     parts += [f"**Claim.** {page.claim}", f"**Verdict.** {page.verdict}"]
     if page.choices:
         parts.append(f"**Our choices.** {page.choices}")
-    held = [("yes" if c.holds else "**no**", c.statement, c.measured) for c in checks]
-    n_held = sum(c.holds for c in checks)
-    parts += _folded(
-        f"Checks: {n_held} of {len(checks)} hold",
-        _grid(("holds", "statement", "measured"), held),
-        is_open=n_held < len(checks),
-    )
+    parts += _checked(checks)
     if table is not None:
         parts += _numbers(script, table)
     parts += [_made(script, made), *_ranges(made.notes)]
     return in_prose("\n\n".join(parts) + "\n")
+
+
+def _checked(checks: Sequence[Check]) -> list[str]:
+    """Statements with what decides them; open if one does not hold."""
+    rows = [
+        (c.statement if c.holds else f"**does not hold**: {c.statement}", c.measured)
+        for c in checks
+    ]
+    n_held = sum(c.holds for c in checks)
+    title = f"Checks: {n_held} of {len(checks)} hold"
+    return _folded(title, _grid(("statement", "measured"), rows), is_open=n_held < len(checks))
 
 
 def _numbers(script: Script, table: Table) -> list[str]:
@@ -131,9 +136,7 @@ def index(scripts: Sequence[Script], out: Path) -> str:
 
 def _held(page: str) -> str:
     """Outcome of the checks of a page that is written."""
-    held = sum(line.startswith("| yes |") for line in page.splitlines())
-    failed = sum(line.startswith("| **no** |") for line in page.splitlines())
-    return f"{held} of {held + failed} hold"
+    return page.partition("<summary>Checks: ")[2].partition("</summary>")[0]
 
 
 _LEAD = """\
