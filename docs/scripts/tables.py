@@ -23,7 +23,6 @@ from errata_table import errata_table
 from liquid_tables import liquid_source_table, liquid_table
 from validation_tables import (
     division_table,
-    exact_table,
     grid,
     limit_table,
 )
@@ -251,7 +250,6 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "division": division_table,
     "assumptions": lambda: assumption_table("fuel-injector"),
     "mirror assumptions": lambda: assumption_table("micromirror"),
-    "arc against exact": exact_table,
     "limits": limit_table,
     "api": api_table,
 }

@@ -9,8 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import contactkit as ck
-from contactkit.as_published.printed import common as published
-from contactkit.capillary.arc import bridge as bridge_arc
 from contactkit.capillary.arc import sphere as arc_sphere
 
 DOCS = Path(__file__).parents[1]
@@ -77,24 +75,6 @@ def _angles(case: Mapping[str, Any]) -> str:
 def _shape(case: Mapping[str, Any]) -> tuple[float, float, float, float]:
     angles = math.radians(case["theta1_deg"]), math.radians(case["theta2_deg"])
     return (*angles, case["kappa1"], case["kappa2"])
-
-
-def exact_table() -> str:
-    """Force of the arc against the exact bridge, with the published one between flats."""
-    rows = []
-    for case in _reference("exact_bridge"):
-        shape, gap, volume = _shape(case), case["D"], case["V"]
-        right = case["F_over_gamma"]
-        state = bridge_arc.arc_bridge(gap, volume, *shape)
-        forces = [float(state.force)]
-        if _bodies(case) == "flats":
-            radius = float(state.radius_lower)
-            forces.append(float(published.meniscus_flat_3_11(radius, gap, 1.0, *shape[:2])))
-        off = [f"{100.0 * (force - right) / abs(right):+.2f}" for force in forces]
-        where = f"{_bodies(case)}, {_angles(case)}, {volume:g}, {gap:.3g}"
-        rows.append((where, f"{right:.6g}", *off, *[""] * (2 - len(off))))
-    head = ("bodies, angles, volume, gap", "exact force", "arc [%]", "Eq. (3.11) [%]")
-    return grid(head, rows)
 
 
 def limit_table() -> str:

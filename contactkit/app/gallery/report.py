@@ -142,6 +142,6 @@ def _held(page: str) -> str:
 _LEAD = """\
 Every figure and table of the source that has data, computed again: what it states, what we find,
 and the checks that decide it. A statement that is wrong stays as a check of the corrected one, and
-the page names the reason. `contactkit gallery` makes all of them; each page names the script that
-makes it. Left out are schematics, without anything to compute: Figs. 1.1, 2.1a, 2.4 to 2.7, 2.22,
-2.26, 3.1 to 3.6, 3.17 and 3.22 to 3.24."""
+the page names the reason. `contactkit gallery` makes all of them; each page names the command
+that makes it. Left out are schematics, without anything to compute: Figs. 1.1, 2.1a, 2.4 to 2.7,
+2.22, 2.26, 3.1 to 3.6, 3.17 and 3.22 to 3.24."""
