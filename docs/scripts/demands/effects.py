@@ -13,7 +13,7 @@ from contactkit.kinds import CONTACT_EFFECTS, SEPARATION_EFFECTS, SLIDING_EFFECT
 from contactkit.plot.axis_units import in_prose
 
 from .effect_scenes import ENTRIES
-from .page import conditions, machine, picture, table
+from .page import conditions, folded, machine, picture, table
 
 __all__ = ["NAME", "draw", "lists", "measure", "page"]
 
@@ -83,7 +83,7 @@ def page(data: Mapping[str, Any]) -> str:
     for title, registry in KINDS.items():
         rows = [_row(kind, data["effects"][kind.name]) for kind in registry]
         head = ("effect", "with [s]", "without [s]", "memory saved")
-        parts += [f"## {title}", table(head, rows)]
+        parts += [f"## {title}", folded("Seconds and memory", table(head, rows))]
         parts.append("\n".join(_section(kind, data["effects"][kind.name]) for kind in registry))
     parts += ["## Measured", conditions(data["measured"]) + " [Data](effects.json)."]
     return in_prose("\n\n".join(parts) + "\n")
