@@ -176,8 +176,8 @@ def effect_table(kinds: Iterable[type[Effect]]) -> str:
     rows = []
     for kind in kinds:
         role = next(word for base, word in ROLES.items() if issubclass(kind, base))
-        rows.append((f"`{kind.name}`", f"`{kind.__name__}`", role, kind.summary))
-    return grid(("in files", "in Python", "role", "what it is"), rows)
+        rows.append((f"`{kind.name}`, `{kind.__name__}`", role, kind.summary))
+    return grid(("in files, in Python", "role", "what it is"), rows)
 
 
 def ports(table: Sequence[Port], causality: str) -> str:
