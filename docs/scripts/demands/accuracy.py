@@ -226,13 +226,14 @@ def _seconds(value: float | None) -> str:
 def _summary(study: AccuracyStudy, points: Points) -> tuple[str, ...]:
     """A study: what its settings span, and what a digit costs where they buy digits."""
     title = f"`{study.name}`: {study.title}; {study.quantity} against {study.judge}"
-    if study.digits:
-        span, more = _span(points, study.digits), _costs(digit(points, study.digits))
-    else:
-        some = [p for p in points if p["error"] is not None and not p["is_model"]]
-        some.sort(key=lambda p: -p["error"])
-        span, more = "; ".join(_at(p["error"], p["seconds"]) for p in (some[0], some[-1])), "-"
-    return title, span.replace(", ", "; "), more
+    method = study.digits
+    some = [p for p in points if p["error"] is not None and not p["is_model"]]
+    some = [p for p in some if p["method"] == method and p["error"]] if method else some
+    some.sort(key=lambda p: -p["error"])
+    span = "; ".join(
+        f"{_at(p['error'], p['seconds'])} ({p['setting']})" for p in (some[0], some[-1])
+    )
+    return title, span, _costs(digit(points, method)) if method else "-"
 
 
 def _at(error: float, seconds: float) -> str:
