@@ -41,7 +41,9 @@ _LETTERS = (
     (re.compile(r"(?<![\w\\])([nµmc]?m)2(?!\w)"), r"\1²"),
     (re.compile(r"(?<![\w\\])([nµmc]?m)3(?!\w)"), r"\1³"),
     (re.compile(r"(?<=\d) deg(?:rees)?\b|\bdeg(?=C?\b)"), "°"),
-    (re.compile(r"\b([mµn]?(?:N|Pa))\.(s|m)\b"), r"\1·\2"),
+    (re.compile(r"\b([kmµnp]?(?:N|Pa))\.(s|m)\b"), r"\1·\2"),
+    (re.compile(r"(?<=N·m)\.(?=s\b)|(?<=\bkg)\.(?=m²)"), "·"),
+    (re.compile(r"(?<=\d )(m?)ohm\b"), r"\1Ω"),
 )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from validation_tables import grid
 
 from contactkit.models.library import bundled_scene
+from contactkit.plot.axis_units import in_prose
 
 
 def assumption_table(name: str) -> str:
@@ -29,4 +30,4 @@ def assumption_table(name: str) -> str:
                 rows.append([f"`{label}`", value.strip('"'), comment])
         elif comment and open_row:
             rows[-1][2] += f" {comment}"
-    return grid(("key", "value", "where it comes from"), rows)
+    return in_prose(grid(("key", "value", "where it comes from"), rows))

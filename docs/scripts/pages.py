@@ -42,7 +42,7 @@ PAGES: Mapping[str, Page] = {
     ),
     "architecture": Page("img/architecture.png", 0.1, (("architecture.py",),)),
     "injector": Page(
-        "injector.md, hosts.md: delays, errors of steps", 2, (("injector", "--write"),)
+        "injector*.md, hosts.md: delays, errors of steps", 2, (("injector", "--write"),)
     ),
     "bridges": Page("bridges.md: errors of closures", 0.5, _measured("bridges")),
     "films": Page("img/: pictures of films.md", 0.5, (("film_pictures.py",),)),
@@ -54,12 +54,12 @@ PAGES: Mapping[str, Page] = {
     "gradients": Page("img/gradient-*.png", 0.2, (("gradients",),)),
     "adhesion": Page("adhesion.md: levels of a curve, and its picture", 5, _measured("adhesion")),
     "pictures": Page(
-        "img/: figures of shipped scenes and examples; head-disk.md: head-disk",
+        "img/: figures of shipped scenes and examples; head-disk*.md",
         20,
         (("pictures.py",),),
     ),
     "sensitivity": Page(
-        "injector.md, micromirror.md, head-disk.md: tornado figures", 7, (("sensitivity.py",),)
+        "img/tornado-*; injector.md, micromirror.md: their tables", 7, (("sensitivity.py",),)
     ),
     "demands": Page("demands/: accuracy and cost, hard cases, effects", 12, (("demands",),)),
     "peers": Page(

@@ -192,7 +192,7 @@ def test_the_tables_of_the_docs_have_a_line_of_it(plates, tables):
     (line,) = [row for row in effects.splitlines() if "`electrostatic-force`" in row]
     assert all(word in line for word in ("`ElectrostaticForce`", "| force |", "attraction"))
     assert '**`effect = "electrostatic-force"`**' in keys
-    assert re.search(r"`voltage` *\| V *\| must be given *\| Difference of the potentials", keys)
+    assert "| `voltage` | required | Difference of the potentials [V]. |" in keys
 
 
 def test_a_native_fmu_tabulates_it(plates):
