@@ -23,7 +23,7 @@ PAGE = Page(
     choices="Higher load 4e-5 E3, as in the caption. Tension is uncertain by 30 %, its ratios "
     "between structures by 10 to 20 % ([refinement](grid-refinement.md)).",
     grid=rough.WIDE,
-    seeds="1 to 5; maps of seed 1, a square of 0.6 um around the highest pressure",
+    seeds="1 to 5; maps of seed 1 around the highest pressure",
 )
 LOADS, CROP, HEIGHT = (4e-6, 4e-5), 0.6e-6, 10.0
 STRUCTURES = list(rough.STRUCTURES)
