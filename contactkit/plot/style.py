@@ -20,7 +20,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 from matplotlib.text import Text
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
 
 from ..errors import DescriptionError
 from ..files.scenes import write_whole
@@ -45,6 +45,7 @@ __all__ = [
     "mpl",
     "note",
     "plain_log",
+    "prefixed_log",
     "save",
     "save_animation",
     "series",
@@ -244,6 +245,15 @@ def plain_log(axis: Axis) -> None:
     """Label a logarithmic axis at 1, 2 and 5, without powers of ten."""
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
+def prefixed_log(axis: Axis, factor: float, unit: str) -> None:
+    """Label a logarithmic axis of many decades by prefixes: 10 ns, 1 µs; its data times `factor`
+    are in the unit."""
+    prefixed = EngFormatter(unit=unit)
+    axis.set_major_locator(LogLocator(numticks=7))
+    axis.set_major_formatter(lambda x, _: prefixed(x * factor))
     axis.set_minor_formatter(NullFormatter())
 
 

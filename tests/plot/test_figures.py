@@ -178,14 +178,38 @@ def test_a_separation_draws_what_it_determines(gap, lengths, tmp_path):
         result.plot.cycles()
 
 
-def test_limits_of_the_liquid_are_hatched_below_the_curves():
-    effects = (ck.ViscousForce(), ck.TensionLimit(strength=1e4, cavity="truncated"))
-    result = ck.simulate(ck.plan(film(PULLED, *effects)))
+def test_a_film_that_tears_is_drawn_over_time():
+    effects = (ck.ViscousForce(), ck.TensionLimit(strength=1e6))
+    thrown = ck.ImposedForce(initial_gap=5e-6, final_gap=25e-6, force=40.0, mass=0.02)
+    result = ck.simulate(ck.plan(film(thrown, *effects)))
+    force, time, acts = result["viscous_force"], result["time"], result["limit"] > 1.0
     ax = result.plot.forces()
-    (hatched,) = ax.collections
-    assert hatched.get_hatch()
-    assert hatched.get_facecolor().size == 0 or hatched.get_facecolor()[0, 3] == 0.0
-    assert hatched.get_zorder() < min(line.get_zorder() for line in ax.get_lines())
+    line = next(one for one in ax.get_lines() if one.get_label() == "viscous force")
+    x, y = line.get_data()
+    assert len(x) == len(time)
+    assert (ax.get_xlabel(), ax.get_xscale()) == ("time", "log")
+    assert "10 ns" in [one.get_text() for one in ax.get_xticklabels()]
+    shown = (x >= ax.get_xlim()[0]) & (x <= ax.get_xlim()[1]) & (y <= ax.get_ylim()[1])
+    assert shown[int(force.argmax())]  # the peak is on the panel, and not on its frame
+    peak = ax.transData.transform((x[int(force.argmax())], 0.0))
+    assert 0.05 < ax.transAxes.inverted().transform(peak)[0] < 0.95
+    (bar,) = ax.collections
+    ends = bar.get_paths()[0].vertices[:, 0] * time[-1] / x[-1]
+    assert (ends.min(), ends.max()) == pytest.approx((time[acts][0], time[acts][-1]))
+    assert bar.get_paths()[0].vertices[:, 1].max() < 0.05  # nothing else is shaded
+    release = next(one for one in ax.get_lines() if one.get_label() == "release")
+    assert release.get_xdata()[0] * time[-1] / x[-1] == pytest.approx(result.state.release_time)
+    gap = result.plot.forces(over="gap")
+    assert (gap.get_xlabel(), gap.get_xscale()) == ("gap [µm]", "log")
+    with pytest.raises(ck.DescriptionError, match=r"forces\.over must be gap or time"):
+        result.plot.forces(over="speed")
+
+
+def test_a_film_that_tears_at_a_given_speed_is_drawn_over_the_gap():
+    effects = (ck.ViscousForce(), ck.TensionLimit(strength=1e4, cavity="truncated"))
+    ax = ck.simulate(ck.plan(film(PULLED, *effects))).plot.forces()
+    assert ax.get_xlabel() == "gap [µm]"
+    assert [one.get_label() for one in ax.collections] == ["limit of the liquid acts"]
 
 
 def test_curves_of_one_unit_are_drawn_over_any_other():

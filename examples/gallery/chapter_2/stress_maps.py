@@ -31,7 +31,8 @@ def cropped(values: np.ndarray, pressure: np.ndarray, pixels: int) -> np.ndarray
 
 
 def maps(result: ck.ContactResult, pixels: int, friction: float = 0.0) -> dict[str, np.ndarray]:
-    """Maps (5, n, n) [Pa] in the order of `ROWS`; maxima (3,) [Pa] and their depths (3,) [m]."""
+    """Maps (5, n, n) [Pa] in the order of `ROWS`, the pressure in the whole window with its maximum
+    in the middle, maxima (3,) [Pa] and their depths (3,) [m]."""
     traction = ck.FrictionTraction(coefficient=friction) if friction else None
     worst = maximum_planes(result, NAMES, friction=traction)
     top = stress_below(result, ck.SubsurfaceStress(depths=(0.0,), keep="planes"), traction)
@@ -40,6 +41,7 @@ def maps(result: ck.ContactResult, pixels: int, friction: float = 0.0) -> dict[s
     shown = [result.pressure, surface, *(worst[name].values for name in NAMES)]
     return {
         "maps": np.array([cropped(one, result.pressure, pixels) for one in shown]),
+        "window": cropped(result.pressure, result.pressure, len(result.pressure)),
         "maxima": np.array([worst[name].maximum.value for name in NAMES]),
         "depths": np.array([worst[name].maximum.z for name in NAMES]),
     }
