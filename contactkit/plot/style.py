@@ -99,6 +99,7 @@ STYLE: Any = {
 }
 
 _MICRO = re.compile(r"(?<![\w$\\])u(?=(?:m[23]?|s|N|J|Pa)\b)")
+_POWER = re.compile(r"(?<=[µnm]m)[23](?=\])")
 _DEGREES = re.compile(r"(?<=\d) deg\b|\bdeg(?=C?\b)")
 _UNDATED: dict[str, dict[str, None]] = {
     "png": {"Software": None},
@@ -269,7 +270,8 @@ def _set_in_print(made: Figure) -> None:
     """Write units in all texts of a figure with µ and °: labels may come from tables in ASCII."""
     for text in made.findobj(Text):
         given = text.get_text()
-        changed = _DEGREES.sub("°", _MICRO.sub("µ", given))
+        changed = _POWER.sub(lambda found: "²³"[int(found[0]) - 2], _MICRO.sub("µ", given))
+        changed = _DEGREES.sub("°", changed)
         if changed != given:
             text.set_text(changed)
 
