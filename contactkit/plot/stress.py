@@ -26,6 +26,7 @@ __all__ = ["Scale", "below", "depth_shown", "draw_section", "stress_section"]
 # Of the maximum: a figure reaches as deep as the stress is larger. Below a
 # sphere a tenth lies at four contact radii, a hundredth at thirteen: the contact would be a dot.
 _FAINT = 0.1
+_EQUAL = 1.005  # of the largest stress drawn: what exceeds it by less reads the same
 _NAMED = 0.07  # of the depth shown: a thinner layer has no room for a line of text
 LABELS = {
     "von_mises": "von Mises stress",
@@ -53,9 +54,10 @@ def below(
     *,
     depth: float | None = None,
 ) -> Axes:
-    """Draw contours of the stress under the row of maximum pressure, to scale, with its maximum.
+    """Draw contours of the stress in a section, to scale, with the maximum of it marked.
 
-    Stress jumps at interfaces (dashed); each layer is drawn on its own. Down to less than a few
+    The section goes through the maximum of the measure if the planes were kept, otherwise through
+    the maximum pressure; then a larger stress elsewhere is named beside it. Stress jumps at interfaces (dashed); each layer is drawn on its own. Down to less than a few
     pixels the depth is stretched.
 
     Parameters
@@ -79,8 +81,7 @@ def below(
     part = result.of(SubsurfaceStress)
     if measure not in MEASURES:
         raise DescriptionError("stress.measure", measure, f"be one of {', '.join(MEASURES)}")
-    values = np.asarray(MEASURES[measure](part.section))
-    values, x = _around_maximum(result, part, values)
+    values, x, through = _section(result, part, measure)
     shown = depth_shown(result, measure) if depth is None else depth
     if not part.depth[0] < shown:
         expected = f"lie below the first plane, at {part.depth[0]:g} m"
@@ -94,30 +95,53 @@ def below(
     ax.set_ylim(shown / length, 0.0)
     if shown < 4.5 * pixel:  # a few pixels: stretched, as nothing of it could be seen to scale
         ax.set_aspect("auto")
-    ax.set_xlabel(f"x from the maximum pressure [{length_name}]")
+    ax.set_xlabel(f"x from the {through} [{length_name}]")
     ax.set_ylabel(f"depth [{length_name}]")
+    _name_maximum(ax, part, measure, float(values.max()))
     _name_layers(ax, result.plan.scene.interface.lower.elastic_stack, shown / length, length)
-    bar = ax.figure.colorbar(ax.collections[0], ax=ax, shrink=0.85)
+    bar = ax.figure.colorbar(ax.collections[0], ax=ax, location="bottom", aspect=35, shrink=0.8)
     bar.set_label(f"{LABELS[measure]} [{stress_name}]")
     return ax
 
 
-def _around_maximum(result: ContactResult, part: StressPart, values: Map) -> tuple[Map, Map]:
-    """Columns of the section with the maximum pressure in the middle, and their places [m].
+def _section(
+    result: ContactResult, part: StressPart, measure: MeasureName
+) -> tuple[Map, Map, str]:
+    """A measure on a section through a maximum, places along it [m], and what has the maximum.
 
-    A window that repeats is rolled.
+    A window that repeats is rolled, with the maximum in its middle.
     """
     (_, nx), (_, dx) = result.plan.grid.shape, result.plan.grid.pixel_size
-    centre = int(np.argmax(result.pressure[part.row]))
+    if part.planes is None:
+        values = np.asarray(MEASURES[measure](part.section))
+        centre, through = int(np.argmax(result.pressure[part.row])), "maximum pressure"
+    else:
+        planes = np.asarray(MEASURES[measure](part.planes))
+        _, row, centre = (int(i) for i in np.unravel_index(int(planes.argmax()), planes.shape))
+        values, through = planes[:, row], "maximum stress"
     if result.plan.grid.periodic:
         values, centre = np.roll(values, nx // 2 - centre, axis=-1), nx // 2
-    return values, np.asarray((np.arange(nx) - centre) * dx, dtype=np.float64)
+    return values, np.asarray((np.arange(nx) - centre) * dx, dtype=np.float64), through
+
+
+def _name_maximum(ax: Axes, part: StressPart, measure: MeasureName, largest: float) -> None:
+    """Say above the panel how large the marked stress is, and whether it is larger elsewhere."""
+    size, unit = axis_unit(largest, "Pa")
+    text = f"marked: {largest / size:.3g} {unit}, maximum of this section"
+    whole = part.maxima[measure]
+    if whole.value > _EQUAL * largest:
+        depth, name = axis_unit(whole.z, "m")
+        place = f"{whole.z / depth:.3g} {name} deep" if whole.z > 0.0 else "at the surface"
+        text += f"\nmaximum of the window, not on it: {whole.value / size:.3g} {unit}, {place}"
+    else:
+        text = text.replace("this section", "the window")
+    ax.set_title(text, loc="left", fontsize=9)
 
 
 def depth_shown(result: ContactResult, measure: MeasureName = "von_mises") -> float:
     """Depth [m] down to which `below` draws: where the stress is a tenth of its maximum."""
     part = result.of(SubsurfaceStress)
-    largest = np.asarray(MEASURES[measure](part.section)).max(axis=1)
+    largest = _section(result, part, measure)[0].max(axis=1)
     last = int(np.flatnonzero(largest > _FAINT * largest.max())[-1])
     return float(part.depth[min(last + 1, len(part.depth) - 1)])
 

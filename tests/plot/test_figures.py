@@ -6,10 +6,12 @@ import subprocess
 import sys
 import warnings
 
+import attrs
 import numpy as np
 import pytest
 
 import contactkit as ck
+from contactkit.analyses.subsurface import MEASURES
 from contactkit.kinds import CONTACT_EFFECTS
 
 style = pytest.importorskip("contactkit.plot.style")
@@ -127,6 +129,46 @@ def test_maps_of_effects_are_drawn_by_their_names(tmp_path):
         result.plot.map("residual_depth")
     with pytest.raises(ck.DescriptionError, match="be a row of the map, 0 to 15"):
         result.plot.section(row=16)
+
+
+def test_a_map_of_the_gap_shows_the_contact(pressed):
+    ax = pressed.plot.gap()
+    np.testing.assert_array_equal(~ax.images[-1].get_array().mask, pressed.contact)
+    assert [one.get_text() for one in ax.get_legend().get_texts()] == ["contact"]
+    assert pressed.plot.displacement().get_legend() is None
+
+
+def test_a_section_of_stress_says_whose_maximum_it_marks():
+    """With friction the largest stress is rarely in the row of the largest pressure."""
+    rough = ck.GaussianRoughness(rms=2e-9, correlation_length=2e-7, cutoff=2e-7, seed=3)
+    wave = contact()
+    for keep in ("section", "planes"):
+        scene = attrs.evolve(
+            wave.scene,
+            interface=ck.Interface(lower=ck.Body(surface=rough, solid=STEEL), upper=ck.Flat()),
+            window=ck.Window(width=1e-6),
+            effects=(
+                ck.HalfSpace(),
+                ck.SubsurfaceStress(keep=keep),
+                ck.FrictionTraction(coefficient=0.5),
+            ),
+        )
+        result = ck.solve(ck.plan(scene, ck.Accuracy(grid=32)))
+        ax = result.plot.stress("tension")
+        part = result.of(ck.SubsurfaceStress)
+        marked = float(ax.get_lines()[-1].get_ydata()[0]) * 1e-9
+        whole = part.maxima["tension"]
+        own = float(MEASURES["tension"](part.section).max())
+        assert own < 0.99 * whole.value
+        text = ax.get_title(loc="left")
+        if keep == "planes":
+            assert marked == pytest.approx(whole.z)
+            assert text == f"marked: {whole.value / 1e9:.3g} GPa, maximum of the window"
+            assert ax.get_xlabel() == "x from the maximum stress [nm]"
+        else:
+            first, second = text.split("\n")
+            assert first == f"marked: {own / 1e9:.3g} GPa, maximum of this section"
+            assert f"not on it: {whole.value / 1e9:.3g} GPa" in second
 
 
 def test_stress_is_drawn_to_scale_over_linear_depth_with_its_maximum():

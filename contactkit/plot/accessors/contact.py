@@ -82,7 +82,7 @@ class ContactFigures(Figures[ContactResult]):
         depth: float | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Draw contours of the stress below the maximum pressure; see `plot.stress.below`."""
+        """Draw contours of the stress below the surface; see `plot.stress.below`."""
         return stress.below(self._owner, measure, ax, depth=depth)
 
     def stress_close_up(
