@@ -66,7 +66,7 @@ def pictures() -> None:
     for name in ("film-instants", "film-pull"):
         picture = IMG / f"{name}.png"
         with Image.open(picture) as drawn:
-            drawn.convert("P", palette=Image.Palette.ADAPTIVE, colors=128).save(picture)
+            drawn.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE).save(picture)
 
 
 if __name__ == "__main__":

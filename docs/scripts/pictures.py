@@ -30,6 +30,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 SHOWN_EXAMPLES = (
     "area_and_theories",
     "loading_history",
+    "rough_coating",
     "rubbed_sphere",
 )  # their figures, by the names of their files
 # (scene, command): figures by the name they have in the pages; with + beside each other, with /
@@ -142,7 +143,7 @@ def keep(folder: Path, names: Mapping[str, str], colours: int = 128) -> None:
     """Keep some figures of a run, small by a palette of so many colours."""
     for name, kept in names.items():
         figure = joined(folder, name)
-        small = figure.quantize(colours, dither=Image.Dither.NONE)
+        small = figure.quantize(colours, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
         small.save(IMG / f"{kept}.png", optimize=True)
 
 
