@@ -20,6 +20,7 @@ __all__ = ["cycles", "forces", "motion", "over_scales", "slide"]
 
 _INSTANT = 0.05  # of the run: an earlier peak is a line on the frame of a linear axis
 
+
 def _lines(
     ax: Axes,
     result: SeparationResult | SlidingResult,

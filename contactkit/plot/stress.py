@@ -104,9 +104,7 @@ def below(
     return ax
 
 
-def _section(
-    result: ContactResult, part: StressPart, measure: MeasureName
-) -> tuple[Map, Map, str]:
+def _section(result: ContactResult, part: StressPart, measure: MeasureName) -> tuple[Map, Map, str]:
     """A measure on a section through a maximum, places along it [m], and what has the maximum.
 
     A window that repeats is rolled, with the maximum in its middle.

@@ -127,7 +127,9 @@ def main() -> int:
             ax.xaxis.set_major_formatter(PercentFormatter(1.0))
         path = save(ax.figure, IMG / f"tornado-{name}")
         with Image.open(path) as figure:
-            figure.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE).save(path, optimize=True)
+            figure.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE).save(
+                path, optimize=True
+            )
         found.save_csv(IMG / "data" / f"tornado-{name}")
         blocks[f"tornado {name}"] = table(found, one.names).replace(" um", f" {in_print('um')}")
         sys.stdout.write(f"{found}\n\n")

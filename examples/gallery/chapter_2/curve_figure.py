@@ -69,7 +69,12 @@ def draw_over_first(
         plot.band(ax, np.asarray(x)[known], over[i], i, label)
     ax.axhline(1.0, color="k", lw=1.0)
     first = labels[0].partition(":")[0]
-    ax.set(xscale="log", xlim=(0.7 * x[0], 1.4 * x[-1]), xlabel="$p_n/E_3$", ylabel=f"over that of {first}")
+    ax.set(
+        xscale="log",
+        xlim=(0.7 * x[0], 1.4 * x[-1]),
+        xlabel="$p_n/E_3$",
+        ylabel=f"over that of {first}",
+    )
 
 
 def labelled(meaning: Mapping[str, str], prime: str = "") -> list[str]:

@@ -129,7 +129,14 @@ def _whole(ax: plot.Axes, contact: np.ndarray, shown: int, pixel: float) -> None
     """Contact in the window as dots, which are seen where pixels are not, and the square."""
     half, edge = 0.5 * len(contact) * pixel, 0.5 * shown * pixel
     rows, columns = np.nonzero(contact)
-    ax.plot((columns + 0.5) * pixel - half, (rows + 0.5) * pixel - half, "s", color="#0072b2", ms=0.9, mew=0.0)
+    ax.plot(
+        (columns + 0.5) * pixel - half,
+        (rows + 0.5) * pixel - half,
+        "s",
+        color="#0072b2",
+        ms=0.9,
+        mew=0.0,
+    )
     x, y = (-edge, edge, edge, -edge, -edge), (-edge, -edge, edge, edge, -edge)
     ax.plot(x, y, color="#d55e00", lw=1.2)
     ax.set(aspect="equal", xlim=(-half, half), ylim=(-half, half))
@@ -144,7 +151,9 @@ def _square(
     edge = 0.5 * len(values) * pixel
     around = (-edge, edge, -edge, edge)
     image = ax.imshow(values, origin="lower", extent=around, cmap="cividis", vmin=0.0, vmax=top)
-    ax.contour(contact, levels=[0.5], colors="#ff9d5c", linewidths=0.9, extent=around)
+    ax.contour(
+        contact, levels=[0.5], colors="#ff9d5c", linewidths=0.9, origin="lower", extent=around
+    )
     ax.tick_params(labelsize=8, labelbottom=False)
     ax.grid(visible=False)
     return image
