@@ -57,7 +57,8 @@ def below(
     """Draw contours of the stress in a section, to scale, with the maximum of it marked.
 
     The section goes through the maximum of the measure if the planes were kept, otherwise through
-    the maximum pressure; then a larger stress elsewhere is named beside it. Stress jumps at interfaces (dashed); each layer is drawn on its own. Down to less than a few
+    the maximum pressure; then a larger stress elsewhere is named beside it.
+    Stress jumps at interfaces (dashed); each layer is drawn on its own. Down to less than a few
     pixels the depth is stretched.
 
     Parameters

@@ -250,8 +250,10 @@ def plain_log(axis: Axis) -> None:
 
 
 def prefixed_log(axis: Axis, factor: float, unit: str) -> None:
-    """Label a logarithmic axis of many decades by prefixes: 10 ns, 1 µs; its data times `factor`
-    are in the unit."""
+    """Label a logarithmic axis of many decades by prefixes, such as 10 ns and 1 µs.
+
+    Its data times `factor` are in the unit.
+    """
     prefixed = EngFormatter(unit=unit)
     axis.set_major_locator(LogLocator(numticks=7))
     axis.set_major_formatter(lambda x, _: prefixed(x * factor))

@@ -38,8 +38,10 @@ def cropped(values: np.ndarray, pressure: np.ndarray, pixels: int) -> np.ndarray
 
 
 def maps(result: ck.ContactResult, pixels: int, friction: float = 0.0) -> dict[str, np.ndarray]:
-    """Maps (5, n, n) [Pa] in the order of `ROWS`, the pressure in the whole window with its maximum
-    in the middle, maxima (3,) [Pa] and their depths (3,) [m]."""
+    """Maps (5, n, n) [Pa] in the order of `ROWS`; maxima (3,) [Pa] and their depths (3,) [m].
+
+    `window` is the pressure in the whole window, with its maximum in the middle.
+    """
     traction = ck.FrictionTraction(coefficient=friction) if friction else None
     worst = maximum_planes(result, NAMES, friction=traction)
     top = stress_below(result, ck.SubsurfaceStress(depths=(0.0,), keep="planes"), traction)
