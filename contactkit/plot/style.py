@@ -42,6 +42,7 @@ __all__ = [
     "figure",
     "legend",
     "letters",
+    "mosaic",
     "mpl",
     "note",
     "plain_log",
@@ -128,6 +129,15 @@ def figure(
     with mpl.rc_context(STYLE):
         made = Figure(figsize=size)
         return made, made.subplots(rows, columns, **grid)
+
+
+def mosaic(
+    panels: Sequence[Sequence[str]], size: tuple[float, float] = (7.0, 4.5), **grid: Any
+) -> tuple[Figure, dict[str, Axes]]:
+    """Make a figure whose panels span several places: the figure and its axes by name."""
+    with mpl.rc_context(STYLE):
+        made = Figure(figsize=size)
+        return made, made.subplot_mosaic([list(row) for row in panels], **grid)
 
 
 def save(made: Figure, path: str | Path, **more: Any) -> Path:

@@ -125,7 +125,7 @@ def cost_table(text: str) -> str:
     rows = [
         (
             row["method"],
-            row["setting"],
+            row["setting"].removeprefix("'"),  # guards a leading sign in spreadsheets
             _number(row["error [-]"], ".1e"),
             _number(row["seconds [s]"], ".3g"),
         )
