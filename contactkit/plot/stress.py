@@ -12,7 +12,7 @@ from ..contact.effects.stress import StressPart, SubsurfaceStress
 from ..contact.result import ContactResult
 from ..errors import DescriptionError
 from .axis_units import axis_unit
-from .style import Axes, figure, mpl
+from .style import Axes, figure, legend, mpl
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -26,6 +26,7 @@ __all__ = ["Scale", "below", "depth_shown", "draw_section", "stress_section"]
 # Of the maximum: a figure reaches as deep as the stress is larger. Below a
 # sphere a tenth lies at four contact radii, a hundredth at thirteen: the contact would be a dot.
 _FAINT = 0.1
+_MARK = "#d55e00"
 _EQUAL = 1.005  # of the largest stress drawn: what exceeds it by less reads the same
 _NAMED = 0.07  # of the depth shown: a thinner layer has no room for a line of text
 LABELS = {
@@ -124,17 +125,27 @@ def _section(result: ContactResult, part: StressPart, measure: MeasureName) -> t
 
 
 def _name_maximum(ax: Axes, part: StressPart, measure: MeasureName, largest: float) -> None:
-    """Say above the panel how large the marked stress is, and whether it is larger elsewhere."""
+    """Say in the panel how large the marked stress is, and whether it is larger elsewhere."""
     size, unit = axis_unit(largest, "Pa")
-    text = f"marked: {largest / size:.3g} {unit}, maximum of this section"
-    whole = part.maxima[measure]
+    whole, where = part.maxima[measure], "window"
+    elsewhere = []
     if whole.value > _EQUAL * largest:
         depth, name = axis_unit(whole.z, "m")
         place = f"{whole.z / depth:.3g} {name} deep" if whole.z > 0.0 else "at the surface"
-        text += f"\nmaximum of the window, not on it: {whole.value / size:.3g} {unit}, {place}"
-    else:
-        text = text.replace("this section", "the window")
-    ax.set_title(text, loc="left", fontsize=9)
+        where, elsewhere = "section", [f"in the window {whole.value / size:.3g} {unit}, {place}"]
+    text = "\n".join([f"maximum of the {where}: {largest / size:.3g} {unit}", *elsewhere])
+    (mark,) = ax.plot([], [], "o", ms=6, mfc="none", mec=_MARK, mew=1.6, label=text)
+    legend(
+        ax,
+        handles=[mark],
+        fontsize=8,
+        loc="lower right",
+        labelcolor="w",
+        frameon=True,
+        facecolor="#00204d",
+        framealpha=0.7,
+        edgecolor="none",
+    )
 
 
 def depth_shown(result: ContactResult, measure: MeasureName = "von_mises") -> float:
@@ -238,9 +249,7 @@ def draw_section(
         if rows[0] > 0:
             ax.axhline(z[rows[0]], color="k", lw=0.9, ls="--")
     row, column = np.unravel_index(int(np.argmax(values)), values.shape)
-    ax.plot(
-        x[column], z[row], "o", ms=6, mfc="none", mec="#d55e00", mew=1.6, clip_on=False, zorder=5
-    )
+    ax.plot(x[column], z[row], "o", ms=6, mfc="none", mec=_MARK, mew=1.6, clip_on=False, zorder=5)
     ax.set(aspect="equal", ylim=(float(z.max()), float(z.min())))
     ax.grid(visible=False)
     return ax

@@ -55,7 +55,7 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
         "force-gap": "mirror-force-gap",
     },
     ("head-disk", "run"): {
-        "pressure + areas": "head-disk-contact",
+        "areas + pressure-close-up": "head-disk-contact",
         "stress / stress-close-up": "head-disk-stress",
         "upper-stack / stack": "head-disk-stack",
         "study": "head-disk-load-curve",

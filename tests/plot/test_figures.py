@@ -131,6 +131,18 @@ def test_maps_of_effects_are_drawn_by_their_names(tmp_path):
         result.plot.section(row=16)
 
 
+def test_a_close_up_of_the_pressure_has_its_maximum_in_the_middle():
+    result = ck.solve(contact())
+    ax = result.plot.pressure_close_up()
+    shown = ax.images[0].get_array()
+    assert shown.shape == (9, 9)
+    assert shown[4, 4] == shown.max()
+    factor = {"[GPa]": 1e9, "[MPa]": 1e6}[ax.images[0].colorbar.ax.get_ylabel().split()[-1]]
+    assert shown.max() * factor == pytest.approx(result.max_pressure)
+    assert ax.get_xlim() == pytest.approx((-450.0, 450.0))
+    assert ax.get_xlabel() == "x from the maximum pressure [nm]"
+
+
 def test_a_map_of_the_gap_shows_the_contact(pressed):
     ax = pressed.plot.gap()
     np.testing.assert_array_equal(~ax.images[-1].get_array().mask, pressed.contact)
@@ -156,25 +168,25 @@ def test_a_section_of_stress_says_whose_maximum_it_marks():
         result = ck.solve(ck.plan(scene, ck.Accuracy(grid=32)))
         ax = result.plot.stress("tension")
         part = result.of(ck.SubsurfaceStress)
-        marked = float(ax.get_lines()[-1].get_ydata()[0]) * 1e-9
+        marked = float(ax.get_lines()[-2].get_ydata()[0]) * 1e-9
         whole = part.maxima["tension"]
         own = float(MEASURES["tension"](part.section).max())
         assert own < 0.99 * whole.value
-        text = ax.get_title(loc="left")
+        (text,) = (one.get_text() for one in ax.get_legend().get_texts())
         if keep == "planes":
             assert marked == pytest.approx(whole.z)
-            assert text == f"marked: {whole.value / 1e9:.3g} GPa, maximum of the window"
+            assert text == f"maximum of the window: {whole.value / 1e9:.3g} GPa"
             assert ax.get_xlabel() == "x from the maximum stress [nm]"
         else:
             first, second = text.split("\n")
-            assert first == f"marked: {own / 1e9:.3g} GPa, maximum of this section"
-            assert f"not on it: {whole.value / 1e9:.3g} GPa" in second
+            assert first == f"maximum of the section: {own / 1e9:.3g} GPa"
+            assert f"in the window {whole.value / 1e9:.3g} GPa" in second
 
 
 def test_stress_is_drawn_to_scale_over_linear_depth_with_its_maximum():
     result = ck.solve(contact(ck.SubsurfaceStress()))
     ax = result.plot.stress()
-    (mark,) = ax.get_lines()
+    mark, _ = ax.get_lines()
     maximum = result.of(ck.SubsurfaceStress).maxima["von_mises"]
     assert mark.get_ydata()[0] * 1e-9 == pytest.approx(maximum.z)
     assert (ax.get_aspect(), ax.get_yscale(), ax.yaxis_inverted()) == (1.0, "linear", True)

@@ -51,6 +51,10 @@ class ContactFigures(Figures[ContactResult]):
         """Draw the map of the pressure; white where there is neither contact nor attraction."""
         return of_contact.pressure(self._owner, ax)
 
+    def pressure_close_up(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the pressure around its maximum, a quarter of the window."""
+        return of_contact.pressure_close_up(self._owner, ax)
+
     def gap(self, *, ax: Axes | None = None) -> Axes:
         """Draw the map of the gap."""
         return maps.value_map(self._owner, "gap", ax)
