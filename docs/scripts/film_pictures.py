@@ -49,7 +49,7 @@ def shrink(path: Path, colours: int = 64) -> None:
     whole = Image.new("RGB", (frames[0].width, frames[0].height * 3))
     for i, k in enumerate((0, len(frames) // 2, len(frames) - 1)):
         whole.paste(frames[k], (0, i * frames[0].height))
-    palette = whole.quantize(colours, Image.Quantize.MAXCOVERAGE)
+    palette = whole.quantize(colours, Image.Quantize.MAXCOVERAGE, 1)
     small = [one.quantize(palette=palette, dither=Image.Dither.NONE) for one in frames]
     small[0].save(path, save_all=True, append_images=small[1:], duration=pause["duration"], loop=0)
 
@@ -79,7 +79,7 @@ def pictures() -> None:
     for name in ("film-instants", "film-pull"):
         picture = IMG / f"{name}.png"
         with Image.open(picture) as drawn:
-            drawn.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE).save(picture)
+            drawn.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE, 1).save(picture)
 
 
 if __name__ == "__main__":

@@ -90,7 +90,7 @@ def pictures() -> None:
     plot.letters((left, right))
     plot.save(figure, picture)
     with Image.open(picture) as drawn:
-        drawn.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE).save(picture)
+        drawn.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE, 1).save(picture)
 
 
 TABLES = {"steps": steps}

@@ -143,7 +143,7 @@ def keep(folder: Path, names: Mapping[str, str], colours: int = 128) -> None:
     """Keep some figures of a run, small by a palette of so many colours."""
     for name, kept in names.items():
         figure = joined(folder, name)
-        small = figure.quantize(colours, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+        small = figure.quantize(colours, Image.Quantize.MAXCOVERAGE, 1, dither=Image.Dither.NONE)
         small.save(IMG / f"{kept}.png", optimize=True)
 
 

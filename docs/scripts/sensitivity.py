@@ -168,7 +168,7 @@ def draw(found: Sensitivity, name: str, one: Case) -> None:
         ax.xaxis.set_major_formatter(PercentFormatter(1.0))
     path = save(ax.figure, IMG / f"tornado-{name}")
     with Image.open(path) as figure:
-        figure.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE).save(path, optimize=True)
+        figure.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE, 1).save(path, optimize=True)
 
 
 if __name__ == "__main__":

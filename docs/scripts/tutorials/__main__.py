@@ -144,7 +144,7 @@ def save_figure(figure: Figure, path: Path) -> None:
     with io.BytesIO() as raw:
         figure.savefig(raw, format="png", dpi=DPI)
         with Image.open(raw) as image:
-            image.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(
+            image.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE, 1).save(
                 path, optimize=True
             )
 

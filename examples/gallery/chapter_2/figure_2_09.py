@@ -26,7 +26,7 @@ PAGE = Page(
     " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
     "between structures by 10 to 20 % (page Refinement).",
     grid=rough.WIDE,
-    seeds="1 to 5; maps of seed 1, a square of 0.8 um around the highest pressure",
+    seeds="1 to 5; maps of seed 1 around the highest pressure",
 )
 CROP = 0.8e-6
 

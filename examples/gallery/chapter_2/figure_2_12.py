@@ -24,7 +24,7 @@ PAGE = Page(
     " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
     "between structures by 10 to 20 % (page Refinement).",
     grid=rough.WIDE,
-    seeds="1 to 5; maps of seed 1, a square of 0.6 um around the highest pressure",
+    seeds="1 to 5; maps of seed 1 around the highest pressure",
 )
 LOADS, CROP, HEIGHT = (4e-6, 4e-5), 0.6e-6, 10.0
 STRUCTURES = list(rough.STRUCTURES)

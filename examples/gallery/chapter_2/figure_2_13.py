@@ -27,7 +27,7 @@ PAGE = Page(
     " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
     "between structures by 10 to 20 % (page Refinement).",
     grid=rough.WIDE,
-    seeds="1 to 5; maps of seed 1, a square of 0.6 um around the highest pressure, at 1e-5 E3",
+    seeds="1 to 5; maps of seed 1 around the highest pressure, at 1e-5 E3",
 )
 LOADS, MAP_LOAD, CROP = (4e-6, 1e-5, 4e-5, 1e-4, 4e-4, 1e-3, 4e-3, 1e-2), 1e-5, 0.6e-6
 COLUMNS = ("max_pressure", "contact_fraction", "plastic_fraction")

@@ -24,7 +24,7 @@ PAGE = Page(
     choices="A shorter wave than in the pages on stiffness, so that the bodies flow; maps at "
     "1e-3 E3, as at the printed 1e-5 the plastic area is a few pixels at most.",
     grid=rough.FINE,
-    seeds="1 to 5; maps of seed 1, a square of 0.5 um around the highest pressure",
+    seeds="1 to 5; maps of seed 1 around the highest pressure",
 )
 HARDNESSES = (0.5, 1.0, 2.0)  # over 0.05 E3
 LOADS, MAP_LOAD, CROP = (4e-6, 1e-5, 4e-5, 1e-4, 4e-4, 1e-3, 2e-3, 4e-3), 1e-3, 0.5e-6

@@ -30,7 +30,7 @@ PAGE = Page(
     " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
     "between structures by 10 to 20 % (page Refinement).",
     grid=rough.WIDE,
-    seeds="1 to 5; maps of seed 1 with 0.5, layers of one rms height, a square of 0.6 um",
+    seeds="1 to 5; maps of seed 1 with 0.5, layers of one rms height",
 )
 FRICTIONS, LOAD, HEIGHTS, CROP = (0.0, 0.1, 0.3, 0.5), 4e-6, (1.0, 10.0), 0.6e-6
 STRUCTURES = list(rough.STRUCTURES)
