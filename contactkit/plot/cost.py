@@ -31,9 +31,14 @@ def closures(found: WorkPrecision, ax: Axes, bridges: Sequence[str]) -> Axes:
         y = row + gap * (methods.index(p.method) - 0.5 * (len(methods) - 1))
         fill = "none" if "one gap" in p.label else colour
         ax.plot(p.seconds, y, mark, ms=6.0, color=colour, mfc=fill, ls="none")
-        text, beside = _error_text(p.error, found.floor), {"textcoords": "offset points"}
         ax.annotate(
-            text, (p.seconds, y), (6.0, 0.0), va="center", fontsize=8, color=colour, **beside
+            _error_text(p.error, found.floor),
+            (p.seconds, y),
+            (6.0, 0.0),
+            textcoords="offset points",
+            va="center",
+            fontsize=8,
+            color=colour,
         )
     for method, (colour, _, mark) in zip(methods, SERIES, strict=False):
         ax.plot([], [], mark, color=colour, ls="none", label=method)

@@ -253,7 +253,7 @@ def _map(
     factor, unit = axis_unit(max(right - left, top - bottom), "m")
     extent = (left / factor, right / factor, bottom / factor, top / factor)
     low, high = limits if limits is not None else (None, None)
-    look = {"origin": "lower", "extent": extent, "interpolation": "nearest"}
+    look: dict[str, Any] = {"origin": "lower", "extent": extent, "interpolation": "nearest"}
     shown = _unfold(np.ma.masked_array(values, ~face.loaded), mirror)
     image = ax.imshow(shown, cmap=colours, vmin=low, vmax=high, **look)
     void = _unfold(face.loaded & (state.liquid_fraction < 1.0), mirror)
@@ -261,7 +261,7 @@ def _map(
         flat = np.ma.masked_where(~void, np.zeros(void.shape))
         ax.imshow(flat, cmap=ListedColormap([_CAVITY_FILL]), **look)
     if 0.0 < void.mean() < 1.0 and min(void.shape) > 1:
-        at_cells = {"origin": "lower", "extent": extent}
+        at_cells: dict[str, Any] = {"origin": "lower", "extent": extent}
         ax.contour(void * 1.0, levels=[0.5], colors=_CAVITY, linewidths=1.0, **at_cells)
     around = distance_transform_edt(~face.loaded, return_distances=False, return_indices=True)
     beyond = _unfold(np.where(face.level > -max(dx, dy), values[tuple(around)], np.nan), mirror)
@@ -281,7 +281,7 @@ def _round_off(ax: Axes, state: GridFilmState, mirror: Mirror, extent: Extent) -
     dx, dy = (right - left) / (level.shape[1] - 2), (top - bottom) / (level.shape[0] - 2)
     extent = (left - dx, right + dx, bottom - dy, top + dy)
     if min(level.shape) > 1 and level.min() < 0.0 < level.max():
-        at_cells = {"origin": "lower", "extent": extent}
+        at_cells: dict[str, Any] = {"origin": "lower", "extent": extent}
         ax.contourf(level, levels=[float(level.min()) - 1.0, 0.0], colors="w", **at_cells)
         ax.contour(level, levels=[0.0], colors="0.4", linewidths=0.8, **at_cells)
         ax.set(xlim=(left, right), ylim=(bottom, top))
