@@ -21,7 +21,7 @@ ROWS = (
     r"$|\sigma_{xz}|$," + "\nits plane",
 )
 LABEL = {
-    "fontsize": 8,
+    "fontsize": 7.5,
     "va": "top",
     "color": "w",
     "bbox": {"fc": "#00204d", "ec": "none", "pad": 1.0, "alpha": 0.8},
@@ -81,7 +81,7 @@ def map_figure(data: Data, titles: Sequence[str], width: float) -> plot.Figure:
     near = _near(values[:, 0] > 0.0)
     values = values[..., near, near]
     figure, axes = plot.figure(
-        1 + len(ROWS), len(titles), size=(1.8 * len(titles) + 1.5, 11.6), squeeze=False
+        1 + len(ROWS), len(titles), size=(1.55 * len(titles) + 1.5, 10.0), squeeze=False
     )
     for column, ax in enumerate(axes[0]):
         _whole(ax, window[column] > 0.0, values.shape[-1], pixel)
@@ -152,10 +152,9 @@ def _square(
     """A map around the highest pressure, and the edge of the contact."""
     edge = 0.5 * len(values) * pixel
     around = (-edge, edge, -edge, edge)
-    image = ax.imshow(values, origin="lower", extent=around, cmap="cividis", vmin=0.0, vmax=top)
-    ax.contour(
-        contact, levels=[0.5], colors="#ff9d5c", linewidths=0.9, origin="lower", extent=around
-    )
+    look: dict[str, Any] = {"origin": "lower", "extent": around}
+    image = ax.imshow(values, cmap="cividis", vmin=0.0, vmax=top, interpolation="nearest", **look)
+    ax.contour(contact, levels=[0.5], colors="#ff9d5c", linewidths=0.7, **look)
     ax.tick_params(labelsize=8, labelbottom=False)
     ax.grid(visible=False)
     return image
