@@ -66,7 +66,7 @@ def pressure_close_up(result: ContactResult, ax: Axes | None = None) -> Axes:
     image = ax.imshow(
         np.ma.masked_invalid(values / factor),
         origin="lower",
-        extent=tuple(one / length for one in ends),
+        extent=(ends[0] / length, ends[1] / length, ends[2] / length, ends[3] / length),
         cmap="viridis",
         interpolation="nearest",
     )
