@@ -97,6 +97,8 @@ def forces(result: SeparationResult, ax: Axes | None = None, *, over: str = "") 
     ax = ax if ax is not None else figure()[1]
     shown = [one for one in drawn if one.name != "newtonian_force"]
     acts = result[LIMIT.name] > 1.0 if LIMIT.name in result.columns else np.zeros(1, dtype=bool)
+    if not acts.any():
+        drawn = shown  # without a limit both are one line
     along = over or ("time" if acts.any() and _is_accelerated(result) else "gap")
     factor, unit = _lines(ax, result, drawn + pull, along, shown + pull)
     x = result[along] / unit
@@ -112,7 +114,7 @@ def forces(result: SeparationResult, ax: Axes | None = None, *, over: str = "") 
         _fit_time(ax, result, unit, curves[: len(shown)])
     if acts.any():
         _mark_limit(ax, x, acts)
-    legend(ax, frameon=True, framealpha=0.9, edgecolor="none")
+    legend(ax, **({"frameon": True, "edgecolor": "none"} if along == "time" else {}))
     return ax
 
 

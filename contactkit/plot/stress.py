@@ -168,7 +168,8 @@ def _name_layers(ax: Axes, stack: Stack, shown: float, length: float) -> None:
     for material, top, bottom in zip(stack.materials, faces, faces[1:], strict=False):
         bottom = min(bottom, shown)
         if bottom - top > _NAMED * shown and material.name:
-            middle = 0.5 * (top + bottom) if bottom < shown else bottom - 0.07 * shown
+            above = max(0.5 * (top + bottom), bottom - 0.2 * shown)  # the legend lies below
+            middle = 0.5 * (top + bottom) if bottom < shown else above
             at = (0.02, middle)
             ax.text(*at, material.name, transform=ax.get_yaxis_transform(), color="w", fontsize=8)
 

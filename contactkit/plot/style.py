@@ -265,7 +265,7 @@ def prefixed_log(axis: Axis, factor: float, unit: str) -> None:
     Its data times `factor` are in the unit.
     """
     prefixed = EngFormatter(unit=unit)
-    axis.set_major_locator(LogLocator(numticks=7))
+    axis.set_major_locator(LogLocator(numticks=5))
     axis.set_major_formatter(lambda x, _: prefixed(x * factor))
     axis.set_minor_formatter(NullFormatter())
 

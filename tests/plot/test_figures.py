@@ -242,7 +242,8 @@ def test_a_film_that_tears_is_drawn_over_time():
     x, y = line.get_data()
     assert len(x) == len(time)
     assert (ax.get_xlabel(), ax.get_xscale()) == ("time", "log")
-    assert "10 ns" in [one.get_text() for one in ax.get_xticklabels()]
+    labels = [one.get_text() for one in ax.get_xticklabels()]
+    assert {one.split()[-1] for one in labels if one} >= {"ns", "µs"}
     shown = (x >= ax.get_xlim()[0]) & (x <= ax.get_xlim()[1]) & (y <= ax.get_ylim()[1])
     assert shown[int(force.argmax())]  # the peak is on the panel, and not on its frame
     peak = ax.transData.transform((x[int(force.argmax())], 0.0))
