@@ -19,7 +19,7 @@ def closures(found: WorkPrecision, ax: Axes, bridges: Sequence[str]) -> Axes:
     """Draw seconds of each closure, a row for each bridge, with the error written beside it.
 
     Full signs stand for whole curves or whole answers, open ones for one gap at a time. Errors
-    below that of the reference read "exact": nothing can be said of them.
+    below that of the reference read "exact": they cannot be evaluated.
     """
     methods = list(dict.fromkeys(p.method for p in found.points))
     gap = 0.8 / len(methods)

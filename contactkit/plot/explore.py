@@ -74,15 +74,7 @@ class Explorer:
             cmap="YlGnBu",
         )
         hide_holes(self._map, result)
-        if result.contact.any() and not result.contact.all():
-            self._map.contour(
-                result.contact,
-                [0.5],
-                colors="#d55e00",
-                linewidths=0.7,
-                origin="lower",
-                extent=around,
-            )
+        _draw_edge(self._map, result, around)
         place(self._map, length)
         self._cross = (
             self._map.axhline(color="0.5", lw=0.8),
@@ -145,6 +137,13 @@ class Explorer:
                 self.slider.valtext.set_text(depth)
         self._map.set_title(f"{here} at {at}", loc="left", fontsize=10)
         self.figure.canvas.draw_idle()
+
+
+def _draw_edge(ax: Any, result: ContactResult, around: tuple[float, float, float, float]) -> None:
+    """Draw the edge of the contact on a map, if it has one."""
+    if result.contact.any() and not result.contact.all():
+        look = {"colors": "#d55e00", "linewidths": 0.7}
+        ax.contour(result.contact, [0.5], origin="lower", extent=around, **look)
 
 
 def explore(

@@ -53,8 +53,8 @@ def tornado(
     low, high = min(known, default=0.0), max(known, default=1.0)
     factor, unit = axis_unit(max(abs(low), abs(high)), found.quantity_unit)
     width = (high - low) / factor or abs(high) / factor or 1.0
-    told = [one for one in found.influences if not one.swing(found.base) < _LITTLE * (high - low)]
-    rows = told[:most]
+    drawn = [one for one in found.influences if not one.swing(found.base) < _LITTLE * (high - low)]
+    rows = drawn[:most]
     if ax is None:
         _, ax = figure(1, 1, (7.5, 1.2 + 0.42 * max(len(rows), 2)))
     has_gaps = any(one.has_gaps for one in rows)
@@ -71,7 +71,9 @@ def tornado(
     room = 0.035 * len(missing) * width if has_gaps else 0.0
     ax.set_xlim(low / factor - 0.2 * width, end + 0.16 * width + room)
     ax.set_xlabel(found.quantity + ("" if unit == "-" else f" [{unit}]"))
-    rest = [called.get(one.path) or _short(one.path) for one in found.influences if one not in told]
+    rest = [
+        called.get(one.path) or _short(one.path) for one in found.influences if one not in drawn
+    ]
     if rest:
         text = f"less than {_LITTLE:.0%} of this axis: {', '.join(rest)}".replace("%", " %", 1)
         wrapped = textwrap.fill(text, 110)

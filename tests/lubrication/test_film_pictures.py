@@ -37,7 +37,7 @@ def test_maps_show_the_film_alone(steps):
     assert np.array_equal(whole[16:, 16:], whole[15::-1, 15::-1])
 
 
-def test_a_cavity_is_told_from_a_low_pressure(steps):
+def test_a_cavity_has_another_colour_than_a_low_pressure(steps):
     state = steps[-1]
     ax = film_plot.pressure(state)
     void = state.film.face.loaded & (state.liquid_fraction < 1.0)

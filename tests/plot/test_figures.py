@@ -232,7 +232,7 @@ def test_a_separation_draws_what_it_determines(gap, lengths, tmp_path):
         result.plot.cycles()
 
 
-def test_a_film_that_tears_is_drawn_over_time():
+def test_a_film_that_cavitates_at_once_is_drawn_over_time():
     effects = (ck.ViscousForce(), ck.TensionLimit(strength=1e6))
     thrown = ck.ImposedForce(initial_gap=5e-6, final_gap=25e-6, force=40.0, mass=0.02)
     result = ck.simulate(ck.plan(film(thrown, *effects)))
@@ -260,7 +260,7 @@ def test_a_film_that_tears_is_drawn_over_time():
         result.plot.forces(over="speed")
 
 
-def test_a_film_that_tears_at_a_given_speed_is_drawn_over_the_gap():
+def test_a_film_that_cavitates_at_a_given_speed_is_drawn_over_the_gap():
     effects = (ck.ViscousForce(), ck.TensionLimit(strength=1e4, cavity="truncated"))
     ax = ck.simulate(ck.plan(film(PULLED, *effects))).plot.forces()
     assert ax.get_xlabel() == "gap [µm]"

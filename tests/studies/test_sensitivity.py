@@ -165,7 +165,7 @@ def test_figure_has_a_bar_for_each_end(film, found):
 
 def test_figure_only_names_what_moves_nothing(found):
     idle = Influence("film.idle", "m", 1.0, (0.5, 2.0), (found.base, 1.001 * found.base), ("", ""))
-    lost = Influence("film.lost", "m", 1.0, (0.5, 2.0), (found.base, math.nan), ("", "torn"))
+    lost = Influence("film.lost", "m", 1.0, (0.5, 2.0), (found.base, math.nan), ("", "no release"))
     more = evolve(found, influences=(*found.influences, idle, lost))
     ax = more.plot.tornado(missing="never released")
     labels = [one.get_text() for one in ax.get_yticklabels()]

@@ -47,7 +47,7 @@ def draw_runs(
 ) -> None:
     """Draw medians of values (structures, seeds, n), and the range of the seeds of a few.
 
-    Bands of five structures on each other cannot be told apart: `draw_over_first` does that.
+    Bands of five structures on each other hide each other: `draw_over_first` separates them.
     """
     for i, (label, runs) in enumerate(zip(labels, values, strict=True)):
         if i in banded:
