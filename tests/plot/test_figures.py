@@ -101,7 +101,7 @@ def test_every_figure_that_an_effect_declares_is_a_method():
 @pytest.mark.slow
 def test_what_a_contact_can_draw_is_drawn_with_units_by_size(pressed, tmp_path):
     names = [name for name in pressed.plot.available if name != "map"]
-    more = {"surface_3d", "explore"}
+    more = {"surface_3d", "explore", "pressure_close_up"}
     assert {"pressure", "gap", "displacement", "heights", "areas", "section"} | more == set(names)
     bars = {"pressure": "GPa", "gap": "nm", "displacement": "nm", "heights": "nm"}
     for name in sorted(set(names) - more):
