@@ -357,3 +357,24 @@ def test_matplotlib_comes_with_the_first_figure_alone():
         "assert 'matplotlib' in sys.modules\n"
     )
     subprocess.run([sys.executable, "-W", "ignore", "-c", code], check=True)
+
+
+def test_errors_of_closures_are_written_beside_their_cost():
+    from contactkit.plot.cost import closures
+    from contactkit.work_precision import Point, WorkPrecision
+
+    points = (
+        Point("exact", "flats, 0/0 deg, 200 gaps", 3e-14, 3e-5, {}),
+        Point("exact", "flats, 0/0 deg, 200 gaps, first time", 3e-14, 5e-5, {}),
+        Point("exact", "flats, 0/0 deg, one gap", 2e-16, 2e-3, {}),
+        Point("arc", "flats, 0/0 deg, 200 gaps", 0.0604, 8e-8, {}, is_model=True),
+        Point("arc", "sphere V/R^3 = 0.01, 200 gaps", 1.36, 7e-6, {}, is_model=True),
+    )
+    found = WorkPrecision("force", 1.0, 1e-12, points)
+    names = ["flats, 0/0 deg", "sphere V/R^3 = 0.01"]
+    ax = closures(found, style.figure()[1], names)
+    assert sorted(one.get_text() for one in ax.texts) == ["136 %", "6 %", "exact", "exact"]
+    assert [one.get_text() for one in ax.get_yticklabels()][0] == "flats, 0/0°"
+    places = {round(one.xy[1]): one.get_text() for one in ax.texts if one.get_text() != "exact"}
+    assert places == {0: "6 %", 1: "136 %"}
+    assert ax.get_xlabel() == "seconds per gap"
