@@ -45,7 +45,8 @@ def closures(found: WorkPrecision, ax: Axes, bridges: Sequence[str]) -> Axes:
     if any("one gap" in p.label for p in found.points):
         ax.plot([], [], "o", color="0.3", mfc="none", ls="none", label="open: one gap at a time")
     each = "gap" if any("gap" in p.label for p in found.points) else "bridge"
-    ax.set(xscale="log", xlabel=f"seconds per {each}", ylim=(len(bridges) - 0.5, -0.5))
+    ax.set(xscale="log", ylim=(len(bridges) - 0.5, -0.5))
+    ax.set_xlabel(f"seconds per {each}; beside them: error of the {found.quantity}", fontsize=9)
     ax.set_yticks(range(len(bridges)), [_in_powers(one) for one in bridges])
     ax.margins(x=0.2)
     ax.grid(visible=False, axis="y")

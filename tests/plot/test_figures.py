@@ -374,7 +374,7 @@ def test_errors_of_closures_are_written_beside_their_cost():
     names = ["flats, 0/0 deg", "sphere V/R^3 = 0.01"]
     ax = closures(found, style.figure()[1], names)
     assert sorted(one.get_text() for one in ax.texts) == ["136 %", "6 %", "exact", "exact"]
-    assert [one.get_text() for one in ax.get_yticklabels()][0] == "flats, 0/0°"
+    assert ax.get_yticklabels()[0].get_text() == "flats, 0/0°"
     places = {round(one.xy[1]): one.get_text() for one in ax.texts if one.get_text() != "exact"}
     assert places == {0: "6 %", 1: "136 %"}
-    assert ax.get_xlabel() == "seconds per gap"
+    assert ax.get_xlabel() == "seconds per gap; beside them: error of the force"
