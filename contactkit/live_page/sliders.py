@@ -18,7 +18,7 @@ from ..units import readable_unit
 from .liquid import LiquidTable
 from .scene import KernelScene
 
-__all__ = ["Slider", "family_sliders", "sliders_of"]
+__all__ = ["Slider", "family_sliders", "sliders_of", "with_unit"]
 
 By = Literal["pull", "rise", "speed", "kernel", "liquid", "temperature", "family"]
 Scale = Literal["log", "linear", "angle", "kelvin"]
@@ -103,7 +103,7 @@ def sliders_of(kernel: KernelScene, table: LiquidTable | None) -> tuple[Slider, 
     paths = {path for slider in found for path in slider.paths}
     if "loading.final_gap" in paths and not isinstance(scene.loading, ImposedForce):
         found = [evolve(s, label="largest gap") if s.name == "final_gap" else s for s in found]
-    return tuple(_with_unit(slider, _UNITS.get(slider.name, "")) for slider in found)
+    return tuple(with_unit(slider, _UNITS.get(slider.name, "")) for slider in found)
 
 
 _UNITS = {
@@ -239,7 +239,7 @@ def family_sliders(kernel: KernelScene, table: LiquidTable | None) -> tuple[Slid
     free = {name for name, (_, port) in _LIQUID.items() if kernel.start.get(port)}
     if table is not None and not needed <= free:
         found.append(_temperature(scene, table, "family"))
-    return tuple(_with_unit(slider, _UNITS[slider.name]) for slider in found)
+    return tuple(with_unit(slider, _UNITS[slider.name]) for slider in found)
 
 
 def _scaled(name: str, paths: tuple[str, ...], label: str, value: float, span: float) -> Slider:
@@ -299,7 +299,7 @@ def _of_angles(scene: SeparationScene) -> Iterator[Slider]:
             )
 
 
-def _with_unit(slider: Slider, si: str) -> Slider:
+def with_unit(slider: Slider, si: str) -> Slider:
     """Slider with the unit in which it reads best."""
     if si == "K":
         return evolve(slider, unit="°C", shift=273.15)

@@ -61,7 +61,7 @@ def test_without_the_compiler_the_extra_is_named(monkeypatch, tmp_path):
     ("arguments", "message"),
     [
         (("head-disk", "--out", "page.html"), "this is a ContactScene"),
-        (("fuel-injector", "--out", "page.html"), "InjectorScene"),
+        (("bridges", "--out", "page.html"), "Bridges"),
         (("film.toml", "--out", "page.txt"), "page.txt"),
         (("none.toml", "--out", "page.html"), "exist"),
     ],

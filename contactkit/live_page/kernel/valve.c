@@ -47,6 +47,11 @@ static int follow(double *pull) {
     return fine;
 }
 
+/* Longest step with which the stop can be coupled to the mass; as _longest of the master. */
+EXPORT(ck_valve_longest) double ck_valve_longest(void) {
+    return 2.0 * sqrt(ck_page_read(&ck_page_model, CK_M) / ck_page_read(&drive, CK_K_STOP));
+}
+
 EXPORT(ck_valve_start) int ck_valve_start(void) {
     double pull;
     begun = 0.0, n_rows = 0;
