@@ -157,7 +157,7 @@ def _loading(scene: SeparationScene) -> dict[str, Any]:
 
 
 def slider_data(slider: Slider, tables: dict[str, Any]) -> dict[str, Any]:
-    """Return a slider as the page reads it, with the places of its fields in the tables of a scene."""
+    """Return a slider as the page reads it, with the places of its fields in tables of a scene."""
     found = asdict(slider, filter=lambda attribute, _: attribute.name != "paths")
     places = [place_in(tables, path) for path in slider.paths]
     return {**found, "unit": readable(slider.unit), "places": places}

@@ -20,7 +20,7 @@ from .scene import KernelScene
 
 __all__ = ["Slider", "family_sliders", "sliders_of", "with_unit"]
 
-By = Literal["pull", "rise", "speed", "kernel", "liquid", "temperature", "family"]
+By = Literal["pull", "rise", "speed", "kernel", "liquid", "temperature", "family", "device"]
 Scale = Literal["log", "linear", "angle", "kelvin"]
 """How a quantity is spread: by its logarithm, evenly, or as ln(-ln x), a humidity by that of its
 Kelvin radius; angles evenly, and what they move is no power of them."""
@@ -32,7 +32,7 @@ class Slider:
 
     `paths` are the fields that take its value. `by` is the way to the kernel: as the pull, its rise
     time or an imposed speed, as a variable (`port`, `reference`), as a property of the liquid,
-    through the temperature, or through the tables over a grid. Shown is (value - shift)/factor, in
+    through the temperature, through the tables over a grid, or as the view of a device does. Shown is (value - shift)/factor, in
     `unit`.
     """
 

@@ -117,8 +117,9 @@ def valve_data(
 
 
 _HELD = (
-    "Film and valve are coupled in steps of 5 \u00b5s, as their two FMUs are: it opens within "
-    "1e-4, and closes within 2 \u00b5s, of what one set of equations gives. Time begins with the pulse."
+    "Film and valve are coupled in steps of 5 \u00b5s, as their two FMUs are: it opens "
+    "within 1e-4, and closes within 2 \u00b5s, of what one set of equations gives. "
+    "Time begins with the pulse."
 )
 
 
@@ -194,7 +195,7 @@ def _tensions(scene: InjectorScene) -> Iterator[_Moved]:
             value=value,
             low=min(low, value),
             high=max(high, value),
-            by="tension",
+            by="device",
             scale="log" if scale == "log" else "linear",
             unit="bar",
             factor=bar,
@@ -234,7 +235,7 @@ def _of_range(scene: InjectorScene, kernel: KernelScene, paths: str) -> _Moved:
         value=value,
         low=low,
         high=high,
-        by="valve",
+        by="device",
         scale="log" if low > 0.0 and high > _WIDE * low else "linear",
     )
     offsets = tuple(one - value for one in values)
