@@ -18,8 +18,7 @@ from ..errors import PlanError
 from ..files.scenes import scene_text, unstructure
 from ..scene.loading import ImposedForce
 from ..scene.scenes import SeparationScene
-from ..separation.effects.base import FilmStatus
-from ..separation.effects.viscous import ViscousForce
+from ..separation.effects.base import FilmLimit, FilmStatus
 from ..separation.plan import Plan, plan
 from ..separation.simulate import simulate
 from ..separation.validity import path_of
@@ -33,6 +32,7 @@ __all__ = [
     "Progress",
     "file_name",
     "film_data",
+    "fmu_command",
     "given_family",
     "held",
     "kernel_data",
@@ -83,9 +83,12 @@ def film_data(
         "sliders": [slider_data(one, tables) for one in moved],
         "held": [*held(table, family), *_start_stays(kernel)],
         **kernel_data(kernel, accuracy, rules, span, family, table),
+        "parts": _parts(kernel, made),
+        "limits": " and ".join(
+            effect.name for effect in scene.effects if isinstance(effect, FilmLimit)
+        ),
         **words(made),
-        "fmu": f"contactkit fmu build {file_name(scene.name)}.toml --native --out "
-        f"{file_name(scene.name)}.fmu",
+        "fmu": fmu_command(scene.name) if isinstance(scene.loading, ImposedForce) else "",
         "scene": tables,
     }
 
@@ -246,16 +249,30 @@ def _validity(rules: Rules) -> dict[str, Any]:
     }
 
 
+def _parts(kernel: KernelScene, made: Plan) -> list[dict[str, Any]]:
+    """Each force of the film and the solids, with the laws of the kernel that it is the sum of."""
+    laws = kernel.film.effects
+    return [
+        {
+            "label": effect.column.label,
+            "name": effect.column.name,
+            "laws": [i for i, law in enumerate(laws) if law is effect],
+        }
+        for effect in dict.fromkeys(laws)
+    ]
+
+
+def fmu_command(title: str) -> str:
+    """Command that makes the FMU of a scene that was saved."""
+    name = file_name(title)
+    return f"contactkit fmu build {name}.toml --native --out {name}.fmu"
+
+
 def words(made: Plan) -> dict[str, Any]:
     """Return names of forces, and which effects are on and off."""
-    scene, forces = made.scene, made.forces
-    names = [force.label for force in forces if force.name != ViscousForce.column.name]
+    scene = made.scene
     off = [kind for kind in made.known_effects if not made.has(kind)]
     return {
-        "parts": {
-            "static": " and ".join(names),
-            "viscous": ViscousForce.column.label if made.has(ViscousForce) else "",
-        },
         "cavitates": made.film.cavity is not None,
         "broken": int(FilmStatus.BROKEN),
         "on": [f"{effect.name}: {effect.summary}" for effect in scene.effects],

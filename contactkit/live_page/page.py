@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import re
 from collections.abc import Callable
@@ -16,7 +17,8 @@ from ..extras import require
 from ..files.scenes import write_whole
 from ..models.injector.scene import InjectorScene
 from ..scene.scenes import SeparationScene
-from .film_page import film_data, packed
+from .film_page import file_name, film_data, packed
+from .fmu_files import fmu_files
 from .module import kernel_module
 from .scene import check_scene
 from .valve_page import valve_data
@@ -34,6 +36,7 @@ def write_page(
     out: str | PathLike[str],
     *,
     accuracy: Accuracy | None = None,
+    fmu: bool = False,
     progress: Progress | None = None,
 ) -> Path:
     """Write a scene as one HTML file that computes in the browser.
@@ -52,6 +55,9 @@ def write_page(
         The file to write, ``*.html``; whole or not at all.
     accuracy : Accuracy, optional
         Tolerance of the motion, and of the film on a face; `Accuracy.standard` if not given.
+    fmu : bool
+        Whether the page holds the native FMU of the scene as it is, to be saved from there: some
+        0.8 MB for all platforms.
     progress : callable, optional
         Called with the fraction that is done.
 
@@ -67,20 +73,29 @@ def write_page(
     MissingExtraError
         If ziglang is not installed (``pip install contactkit[native]``).
     """
-    text = live_page(scene, accuracy, progress)
+    text = live_page(scene, accuracy, progress, fmu=fmu)
     with write_whole(Path(out)) as temporary:
         temporary.write_text(text, encoding="utf-8")
     return Path(out)
 
 
 def live_page(
-    scene: PageScene, accuracy: Accuracy | None = None, progress: Progress | None = None
+    scene: PageScene,
+    accuracy: Accuracy | None = None,
+    progress: Progress | None = None,
+    *,
+    fmu: bool = False,
 ) -> str:
     """Return the text of the page of a scene; see `write_page`."""
     if not isinstance(scene, InjectorScene):
         check_scene(scene)  # a scene that no page carries needs no compiler
     require("ziglang", "a live page, whose kernel is compiled to WebAssembly,")
+    files = fmu_files(scene, file_name(scene.name)) if fmu else {}
     data = page_data(scene, accuracy, progress)
+    data["fmus"] = [
+        {"name": name, "content": base64.b64encode(content).decode("ascii")}
+        for name, content in files.items()
+    ]
     folder = Path(__file__).with_name("template")
     made_by = f"contactkit {__version__}"
     parts = {

@@ -32,8 +32,8 @@ class Slider:
 
     `paths` are the fields that take its value. `by` is the way to the kernel: as the pull, its rise
     time or an imposed speed, as a variable (`port`, `reference`), as a property of the liquid,
-    through the temperature, through the tables over a grid, or as the view of a device does. Shown is (value - shift)/factor, in
-    `unit`.
+    through the temperature, through the tables over a grid, or as the view of a device does. Shown
+    is (value - shift)/factor, in `unit`.
     """
 
     name: str

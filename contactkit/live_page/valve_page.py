@@ -32,6 +32,7 @@ from .family import Family
 from .film_page import (
     Progress,
     file_name,
+    fmu_command,
     given_family,
     held,
     kernel_data,
@@ -47,6 +48,7 @@ from .validity import Rules, checked, logs_of, rules_of
 __all__ = ["drive_numbers", "valve_data"]
 
 _WIDE = 3.0  # ratio of the ends of a range from which on a slider moves along the logarithm
+_LONGEST_STEP = 5e-6  # [s] between film and valve: what the page states of its error
 _INWARD = 0.2  # of the gap when closed: down to which numbers of validity are tabulated
 _PRESSURES = (1.0 * bar, 30.0 * bar)  # absolute, over which the page shows the delay
 _CAVITIES = (-15.0 * bar, 0.9 * bar)
@@ -107,17 +109,16 @@ def valve_data(
         "held": [*held(table, family), _HELD],
         **kernel_data(kernel, accuracy, rules, span, family, table),
         "drive": packed_numbers(drive_numbers(scene)),
-        "step": scene.study.communication_step,
+        "step": min(scene.study.communication_step, _LONGEST_STEP),
         **_cycle(scene, kernel, table),
         **words(made),
-        "fmu": f"contactkit fmu build {file_name(scene.name)}.toml --native --out "
-        f"{file_name(scene.name)}.fmu",
+        "fmu": fmu_command(scene.name),
         "scene": tables,
     }
 
 
 _HELD = (
-    "Film and valve are coupled in steps of 5 \u00b5s, as their two FMUs are: it opens "
+    "Film and valve are coupled in steps of 5 \u00b5s at most, as their two FMUs are: it opens "
     "within 1e-4, and closes within 2 \u00b5s, of what one set of equations gives. "
     "Time begins with the pulse."
 )

@@ -7,6 +7,8 @@ import re
 import shutil
 import subprocess
 import warnings
+from base64 import b64decode
+from functools import partial
 from html import unescape
 
 import numpy as np
@@ -17,6 +19,8 @@ from wasm import MISSING
 
 import contactkit as ck
 from contactkit.app.scenes import open_scene
+from contactkit.fmu.framework.toolchain import local
+from contactkit.fmu.native.build import build_native
 from contactkit.live_page.page import write_page
 from contactkit.models.injector.delays import (
     closing_delay,
@@ -173,6 +177,28 @@ def test_what_the_kernel_refuses_the_page_says(page, tmp_path):
         r'id="status"[^>]*class="bad">gap at release must exceed gap at the start', dom
     )
     assert numbers(dom) == {}
+
+
+def test_the_fmu_in_a_page_is_that_of_the_scene(tmp_path, monkeypatch):
+    """As built for this computer; the button saves the bytes of `build_native`."""
+    here = partial(build_native, platforms=[local()])
+    monkeypatch.setattr("contactkit.live_page.fmu_files.build_native", here)
+    scene = film(volume=None, cavity=False)  # no tables over a grid but of the radius
+    scene = evolve(scene, effects=(ck.ViscousForce(),))
+    page = write_page(scene, tmp_path / "film.html", fmu=True)
+    save = (
+        "save = (name, content) => { saved = name + ' ' + btoa(String.fromCharCode(...content)); }"
+    )
+    probe = PROBE.replace("curves()]]", "curves()], ['saved-fmu', fmuSaved()]]").replace(
+        '<script>addEventListener("load"',
+        "<script>let saved = ''; function fmuSaved() { const was = save; "
+        f"{save}; document.querySelector('#fmus button').click(); save = was; return saved; }}\n"
+        'addEventListener("load"',
+    )
+    page.write_text(page.read_text("utf-8").replace("</body>", probe), "utf-8")
+    name, content = pre(shown(page, tmp_path), "saved-fmu").split()
+    assert name == "film-of-a-page.fmu"
+    assert b64decode(content) == here(scene, tmp_path / "own.fmu").read_bytes()
 
 
 @pytest.fixture(scope="module")

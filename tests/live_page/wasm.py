@@ -18,7 +18,7 @@ needs_runtime = pytest.mark.skipif(
     bool(MISSING), reason=f"{' and '.join(MISSING)} not installed: pip install contactkit[test-all]"
 )
 
-COLUMNS = 10
+COLUMNS = 19  # the last eight are the laws of forces
 HOW = {-1: "failed", 0: "steps", 1: "released", 2: "stuck", 3: "late"}
 
 

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { COLUMNS = 10, BETWEEN = 4 };
+enum { COLUMNS = 11 + CK_MOST_LAWS, BETWEEN = 4 };
 
 /* Fraction of a step before the event at its end, as in motion_curves.py. */
 #define JUST (1.0 - 1e-6)
@@ -19,7 +19,7 @@ enum { COLUMNS = 10, BETWEEN = 4 };
 #define RISEN 40.0 /* rise times after which nothing of it is left */
 
 /* Time, gap, speed, pull, force of the film, that at rest, the viscous one, limit that acts, radius of
-   the cavity, state of the film. */
+   the cavity, state of the film, viscous force without limits, and the force of each law. */
 static double rows[BETWEEN + 1][COLUMNS];
 static int n_rows;
 static double force, rise_time, time_limit;
@@ -103,6 +103,23 @@ EXPORT(ck_page_get) double ck_page_get(unsigned reference) {
 
 static double risen(double time) { return rise_time > 0.0 ? -force * expm1(-time / rise_time) : force; }
 
+/* Force of each law; limits leave of the forces of the liquid what is not free. */
+static void laws_of(const ck_acting *acting, const ck_motion *motion, const ck_forces *found, double *row) {
+    double log_gap = log(motion->gap), by_gap;
+    int i;
+    for (i = 0; i < CK_MOST_LAWS; i++) row[i] = 0.0;
+    for (i = 0; acting->any && i < acting->film->n_laws; i++) {
+        const ck_law *law = &acting->film->laws[i];
+        if (!acting->acts[i]) continue;
+        row[i] = found->viscous - found->free * motion->speed;
+        if (law->rate == CK_RATE_LIQUID) continue;
+        row[i] = ck_table_at(&law->table, motion->gap, log_gap, &by_gap);
+        if (law->scale == CK_SCALE_SURFACE_TENSION) row[i] *= acting->surface_tension;
+        if (law->scale == CK_SCALE_VISCOSITY) row[i] *= acting->viscosity;
+        if (law->rate == CK_RATE_PER_SPEED) row[i] *= motion->speed;
+    }
+}
+
 static void row_of(const ck_motion *motion) {
     double *row = rows[n_rows++];
     ck_acting acting;
@@ -114,6 +131,8 @@ static void row_of(const ck_motion *motion) {
     row[4] = found.fixed + found.viscous, row[5] = found.fixed, row[6] = found.viscous;
     row[7] = found.limit, row[8] = sqrt(spot.edge);
     row[9] = ck_status(&ck_page_model.scene, motion, &acting, &found, row[3]);
+    row[10] = found.resistance * motion->speed;
+    laws_of(&acting, motion, &found, row + 11);
 }
 
 EXPORT(ck_page_start) int ck_page_start(void) {

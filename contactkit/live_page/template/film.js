@@ -7,21 +7,25 @@ function filmNow() {
   const found = data.imposed === "force"
     ? kernel.motion()
     : kernel.opening(values.initial_gap ?? data.gaps[0], values.final_gap ?? data.gaps[1], values.speed);
+  for (const row of found.rows) row.push(...data.parts.map(({ laws }) => laws.reduce((sum, i) => sum + row[COLUMNS.indexOf("law0") + i], 0)));
   const strength = (values.strength ?? 1) / (start.strength ?? 1);
   found.validity = validityOf(found.path, logs, liquid, strength);
   return found;
 }
 
-const COLOURS = { total: "#000000", static: "#009e73", viscous: "#d55e00", pull: "#0072b2", gap: "#0072b2", cavity: "#cc79a7" };
+const COLOURS = { total: "#000000", pull: "#0072b2", gap: "#0072b2", cavity: "#cc79a7" };
+// Of the parts of the force; the viscous one always looks the same.
+const VISCOUS = ["#d55e00", "2 3"];
+const PARTS = [["#009e73", "7 4"], ["#cc79a7", "8 3 2 3"], ["#e69f00", "4 4"], ["#56b4e9", "1 3"], ["#882255", "12 4"]];
 
 function filmCharts() {
   const onPoint = (row) => charts.forEach((chart) => chart.point(row));
   const line = (label, name, colour, dashes = "none") => ({ label, column: column(name), colour, dashes });
-  const forces = [line("all together", "force", COLOURS.total)];
-  if (data.parts.static) forces.push(line(data.parts.static, "static", COLOURS.static, "7 4"));
-  if (data.parts.viscous) forces.push(line(data.parts.viscous, "viscous", COLOURS.viscous, "2 3"));
+  const looks = PARTS.slice();
+  const forces = data.parts.map(({ label, name }) => line(label, name, ...(name === "viscous_force" ? VISCOUS : looks.shift() ?? PARTS[0])));
+  if (forces.length > 1) forces.unshift(line("all together", "force", COLOURS.total));
   if (data.imposed === "force") forces.push(line("pull", "pull", COLOURS.pull, "10 3 2 3"));
-  if (forces.length === 2) forces.shift();
+  if (data.limits) forces.push({ ...line(`viscous force without ${data.limits}`, "unlimited", "#999999", "1 2"), clipped: true });
   const made = [new Chart(by("charts"), { unit: "N", title: "force", series: forces, onPoint })];
   if (data.imposed !== "force") return made;
   made.push(new Chart(by("charts"), { unit: "m", title: "gap", series: [line("gap", "gap", COLOURS.gap)], onPoint }));
@@ -76,7 +80,7 @@ function results() {
 }
 
 run({
-  names: COLUMNS,
+  names: [...COLUMNS, ...data.parts.map(({ name }) => name)],
   prepare: kernelReady,
   makeCharts: filmCharts,
   compute: filmNow,
@@ -84,6 +88,6 @@ run({
   outcome,
   isFine: () => ["released", "opened"].includes(shown.how),
   results,
-  columns: [["time", "s"], ["gap", "m"], ["speed", "m/s"], ["pull", "N"], ["force", "N"], ["static", "N"], ["viscous", "N"], ["cavity", "m"]],
+  columns: [["time", "s"], ["gap", "m"], ["speed", "m/s"], ["pull", "N"], ["force", "N"], ...data.parts.map(({ name }) => [name, "N"]), ...(data.limits ? [["unlimited", "N"]] : []), ["cavity", "m"]],
   isLog,
 });

@@ -1,6 +1,7 @@
 // The kernel of contactkit, compiled to WebAssembly (kernel/page.c). It imports nothing.
 
-const COLUMNS = ["time", "gap", "speed", "pull", "force", "static", "viscous", "limit", "cavity", "state"];
+const COLUMNS = ["time", "gap", "speed", "pull", "force", "static", "viscous", "limit", "cavity", "state", "unlimited",
+  ...Array.from({ length: 8 }, (_, i) => `law${i}`)];
 const MOST_STEPS = 20000;
 
 class Kernel {

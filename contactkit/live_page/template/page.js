@@ -167,8 +167,8 @@ function readAddress() {
   }
 }
 
-function save(name, text) {
-  const link = made("a", undefined, { download: name, href: URL.createObjectURL(new Blob([text])) });
+function save(name, content) {
+  const link = made("a", undefined, { download: name, href: URL.createObjectURL(new Blob([content])) });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
@@ -218,6 +218,13 @@ function makeButtons() {
     update();
   };
   by("fmu").textContent = data.fmu;
+  by("order").hidden = !data.fmu;
+  by("fmus").hidden = !data.fmus.length;
+  for (const { name, content } of data.fmus) {
+    const button = made("button", `FMU as built: ${name}`);
+    button.onclick = () => save(name, Uint8Array.from(atob(content), (c) => c.charCodeAt(0)));
+    by("fmus").append(button, " ");
+  }
 }
 
 function makeAxisChoice() {
