@@ -60,7 +60,7 @@ def test_without_the_compiler_the_extra_is_named(monkeypatch, tmp_path):
 def test_a_speed_has_no_fmu_and_is_refused_before_anything_is_built(monkeypatch, tmp_path):
     monkeypatch.setattr("contactkit.live_page.page.page_data", None)
     scene = evolve(film(cavity=False), loading=SPEED)
-    with pytest.raises(ck.PlanError, match="imposes a speed, and the FMU .* leave out the FMU"):
+    with pytest.raises(ck.PlanError, match=r"imposes a speed, and the FMU .* leave out the FMU"):
         write_page(scene, tmp_path / "film.html", fmu=True)
     assert [*tmp_path.iterdir()] == []
 
