@@ -22,8 +22,8 @@ def page(scene: str, settings: tuple[str, ...], out: Path, fmu: bool, overwrite:
     """Write a live page that computes in a browser.
 
     It is one HTML file with sliders. SCENE is the opening of a film or a bridge by a force on a
-    mass, or at a speed, or a device: fuel-injector. The page runs the C kernel of the native FMUs
-    as WebAssembly and needs no network; building it needs the extra native.
+    mass, or at a speed, or a device: fuel-injector, micromirror. The page runs the C kernel of the
+    native FMUs as WebAssembly and needs no network; building it needs the extra native.
     """
     from ..app.live_page import page_text
     from ..app.output import check_file, enter

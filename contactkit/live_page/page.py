@@ -16,16 +16,16 @@ from ..accuracy import Accuracy
 from ..extras import require
 from ..files.scenes import write_whole
 from ..models.injector.scene import InjectorScene
-from ..scene.scenes import SeparationScene
+from ..models.micromirror.scene import MicromirrorScene
 from .film_page import file_name, film_data, packed
-from .fmu_files import fmu_files
+from .fmu_files import PageScene, fmu_files
+from .mirror_page import mirror_data
 from .module import kernel_module
 from .scene import check_scene
 from .valve_page import valve_data
 
 __all__ = ["PageScene", "live_page", "page_data", "write_page"]
 
-PageScene = SeparationScene | InjectorScene
 Progress = Callable[[float], None]
 
 _SCRIPTS = ("page.css", "tables.js", "kernel.js", "chart.js", "page.js", "moved.js")
@@ -48,9 +48,9 @@ def write_page(
 
     Parameters
     ----------
-    scene : SeparationScene or InjectorScene
-        A film with an imposed force and a mass, or an imposed speed; or the valve of an injector
-        with its film, coupled as its two FMUs are.
+    scene : SeparationScene, InjectorScene or MicromirrorScene
+        A film with an imposed force and a mass, or an imposed speed; the valve of an injector with
+        its film, coupled as its two FMUs are; a micromirror with the tips of both sides.
     out : path
         The file to write, ``*.html``; whole or not at all.
     accuracy : Accuracy, optional
@@ -87,7 +87,7 @@ def live_page(
     fmu: bool = False,
 ) -> str:
     """Return the text of the page of a scene; see `write_page`."""
-    if not isinstance(scene, InjectorScene):
+    if not isinstance(scene, InjectorScene | MicromirrorScene):
         check_scene(scene)  # a scene that no page carries needs no compiler
     require("ziglang", "a live page, whose kernel is compiled to WebAssembly,")
     files = fmu_files(scene, file_name(scene.name)) if fmu else {}
@@ -118,4 +118,6 @@ def page_data(
     """Return what the scripts of a page read: sliders, numbers of the kernel, tables, words."""
     if isinstance(scene, InjectorScene):
         return valve_data(scene, accuracy, progress)
+    if isinstance(scene, MicromirrorScene):
+        return mirror_data(scene, accuracy, progress)
     return film_data(scene, accuracy, progress)
