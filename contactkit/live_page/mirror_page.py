@@ -225,8 +225,8 @@ def _hamaker(tip: _Tip, family: Family | str, accuracy: Accuracy) -> dict[str, A
         return None
     return {
         "name": "effects_van-der-waals-force_hamaker_constant",
-        "scene": _runs(other == 2.0 * plain, plain),
-        "family": _runs(grid == 2.0 * family.base, family.base),
+        "scene": _runs(0.5 * other == plain, plain),
+        "family": _runs(0.5 * grid == family.base, family.base),
     }
 
 

@@ -159,12 +159,18 @@ EXPORT(ck_mirror_start) int ck_mirror_start(double pulse, double wait, double le
     return row_at(0.0);
 }
 
+static int met(void) {
+    ck_page_say(NULL, CK_ERROR, "", "the plate meets the electrode; take a lower voltage, stiffer tips or more height");
+    return 0;
+}
+
 /* One communication step: the mirror ahead, the tips after it, the mirror for good. */
 static int exchange(double time, double dt) {
     double volts[SIDES], ahead = now.tilt, unused = now.rate, mean = 0.0, last = 0.0, known = now.known;
     int side;
     volts_at(now.step, volts);
     turn(&ahead, &unused, volts, known, now.slope, dt);
+    if (!isfinite(ahead)) return met();
     for (side = 0; side < SIDES; side++) {
         double z = height(now.tilt, side), speed = climb(now.tilt, now.rate, side);
         double travel = height(ahead, side) - z;
@@ -174,9 +180,7 @@ static int exchange(double time, double dt) {
     }
     now.slope = (last - known) / dt;
     turn(&now.tilt, &now.rate, volts, mean - 0.5 * now.slope * dt, now.slope, dt);
-    if (isfinite(now.tilt + now.rate)) return 1;
-    ck_page_say(NULL, CK_ERROR, "", "the plate meets the electrode: stiffer tips, a lower voltage, or more height");
-    return 0;
+    return isfinite(now.tilt + now.rate) ? 1 : met();
 }
 
 /* Steps to the end, or until the tilt is below some; rows of some of them. */

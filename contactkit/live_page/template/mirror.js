@@ -55,7 +55,7 @@ function flight(voltage, rows, given = {}) {
     const count = calls.ck_mirror_count(), all = new Float64Array(calls.memory.buffer, calls.ck_mirror_rows(), count * FLOWN);
     for (let i = 0; i < count; i++) {
       const row = Array.from(all.subarray(i * FLOWN, (i + 1) * FLOWN)), tips = calls.ck_page_get(data.references.N);
-      row.push((row[1] * 180) / Math.PI, tips * row[5], -row[4]);
+      row.push((row[1] * 180) / Math.PI, tips * row[5], row[4]);
       rows.push(row);
     }
   };
@@ -114,7 +114,7 @@ function mirrorNow() {
   const [first, ...held] = forces[0].slice(1);
   return {
     rows, how: pulsed.free >= 0 ? "released" : "stuck", free: pulsed.free, alone: alone.free,
-    bend: pulsed.bend, presses: rows[0][11], adhesion: first, held,
+    bend: pulsed.bend, presses: -rows[0][11], adhesion: first, held,
     smallest: smallestPulse({}),
     validity: dry ? [] : data.rules.map((rule) => ({ ...rule, value: kelvin })),
   };
@@ -168,7 +168,7 @@ function mirrorCharts() {
   const line = (label, name, [colour, dashes]) => ({ label, column: column(name), colour, dashes });
   const chart = (unit, title, ...series) => new Chart(by("charts"), { unit, title, series, onPoint });
   const made = [
-    chart("N", "force", line("springs of the tips pull", "pulls", HUES.pulls), line("water and solids hold", "holds", HUES.holds)),
+    chart("N", "force", line("springs pull at the tips, below 0 they press", "pulls", HUES.pulls), line("water and solids hold", "holds", HUES.holds)),
     chart("m", "gap under a tip", line("gap under a tip", "gap", HUES.tilt)),
   ];
   const still = data.parts.filter(({ name }) => name !== "viscous_force");
