@@ -175,7 +175,7 @@ def _more(scene: MicromirrorScene) -> list[float]:
     PlanError
         If nothing condenses.
     """
-    humidity, liquid = scene.study.humidity, scene.interface.meniscus.liquid
+    humidity, liquid = scene.study.humidity, scene.tip.meniscus.liquid
     if not tip_scene(scene.tip, humidity).meniscus.volume:
         raise PlanError(
             f"study.humidity = {humidity:g}: nothing condenses under a tip, and a live page moves "
