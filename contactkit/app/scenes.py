@@ -21,7 +21,7 @@ from .study import StudyOptions, study_lines
 if TYPE_CHECKING:
     from .fit import FitOptions
 
-__all__ = ["Opened", "OpenedDevice", "OpenedScene", "open_scene"]
+__all__ = ["Opened", "OpenedDevice", "OpenedScene", "open_scene", "open_tables"]
 
 Progress = Callable[[float], None]
 
@@ -51,6 +51,9 @@ class Opened(Protocol):
     def fmu_start(self) -> FmuStart:
         """Name of the FMU that holds this scene, and the start values to bake in."""
 
+    def described(self, report: Report) -> dict[str, Any]:
+        """Plan, scene and validity of a report for its page, where no result file has them."""
+
 
 def open_scene(name: str) -> OpenedScene | OpenedDevice:
     """Open a scene file, or a scene of this package by its name, such as ``fuel-injector``.
@@ -65,10 +68,10 @@ def open_scene(name: str) -> OpenedScene | OpenedDevice:
         path = bundled_scene(name)
     tables = read_tables(path)
     with telling_lines(path):
-        return _opened(tables, path.name)
+        return open_tables(tables, path.name)
 
 
-def _opened(tables: dict[str, Any], origin: str) -> OpenedScene | OpenedDevice:
+def open_tables(tables: dict[str, Any], origin: str) -> OpenedScene | OpenedDevice:
     """Open the tables of a file: of a device if it has a ``device`` key."""
     if "device" not in tables:
         return OpenedScene(*read_scene(tables, scene_kind(tables), origin))
@@ -134,6 +137,10 @@ class OpenedScene:
 
         return fmu_start(self.scene, self.accuracy)
 
+    def described(self, report: Report) -> dict[str, Any]:
+        """See `Opened.described`: its result has them."""
+        return {}
+
 
 @frozen
 class OpenedDevice:
@@ -174,3 +181,14 @@ class OpenedDevice:
     def fmu_start(self) -> FmuStart:
         """See `Opened.fmu_start`."""
         return self.scene.report.fmu_start(self.scene)
+
+    def described(self, report: Report) -> dict[str, Any]:
+        """See `Opened.described`."""
+        from .report_page import validity_rows
+
+        rows = [(case, *row) for case, number in report.validity for row in validity_rows([number])]
+        return {
+            "plan": self.plan_text(),
+            "scene": str(self.scene),
+            "validity": tuple(sorted(rows, key=lambda row: "OUT OF RANGE" not in row[2])),
+        }

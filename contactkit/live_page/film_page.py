@@ -23,7 +23,7 @@ from ..separation.plan import Plan, plan
 from ..separation.simulate import simulate
 from ..separation.validity import path_of
 from .family import Family, family_of
-from .liquid import LiquidTable, liquid_table
+from ..liquids.temperature_table import LiquidTable, liquid_table
 from .scene import KernelScene, check_scene, kernel_scene
 from .sliders import Slider, family_sliders, sliders_of
 from .validity import POINTS, Rules, checked, logs_of, rules_of
