@@ -109,7 +109,8 @@ function showValidity() {
   const outside = shown.validity.filter((one) => !(one.value >= (one.low ?? -Infinity) && one.value <= (one.high ?? Infinity)));
   by("verdict").textContent = outside.length
     ? `validity: out of range: ${outside.map((one) => one.name).join(", ")}`
-    : `validity: all ${shown.validity.length} numbers evaluated here are within their range`;
+    : `validity: ${["nothing is left to evaluate", "the number evaluated here is within its range"][shown.validity.length] ??
+      `all ${shown.validity.length} numbers evaluated here are within their range`}`;
   by("verdict").className = outside.length ? "bad" : "";
   by("validity").replaceChildren(
     ...shown.validity.map((one) => {
