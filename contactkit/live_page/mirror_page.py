@@ -1,4 +1,4 @@
-"""What the scripts of the page of a micromirror read: its tips and their water, its mirror.
+"""Data of the page of a micromirror: its tips and their water, its mirror.
 
 The tips are the model ``tip-contact`` of the native FMUs; mirror and electrodes are in
 ``kernel/mirror.c``. What moves are the assumptions of `models.micromirror.assumptions`. The water
