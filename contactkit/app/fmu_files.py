@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 from attrs import frozen
 
 from ..accuracy import Accuracy
-from ..errors import PlanError
+from ..errors import DescriptionError, PlanError, nearest
 from ..export.report import FmuStart
+from ..models.library import bundled_scenes
 from .scenes import Opened, open_scene
 from .settings import assignments, with_settings
 
-__all__ = ["Order", "build_fmu", "check_order"]
+__all__ = ["Order", "build_fmu", "build_opened", "check_order"]
 
 
 _FILMS = ("stiction-mass", "stiction-force")
@@ -85,14 +86,39 @@ def build_fmu(order: Order) -> str:
     """
     from ..fmu.python.build import FMUS, build
 
-    by_name = order.what in FMUS
-    opened = None if by_name else with_settings(open_scene(order.what), order.settings)
-    given = assignments(order.settings) if by_name else {}
+    if order.what not in FMUS:
+        return build_opened(order, with_settings(_opened(order.what, FMUS), order.settings))
+    given = assignments(order.settings)
     if order.native:
-        return _build_native(order, opened, given)
-    start = FmuStart(order.what, given) if opened is None else opened.fmu_start()
+        return _build_native(order, None, given)
+    build(order.what, order.out, start=given)
+    return order.what
+
+
+def build_opened(order: Order, opened: Opened) -> str:
+    """Build the FMU of an opened scene, whose values are set; `Order.what` is its name.
+
+    Raises
+    ------
+    DescriptionError, PlanError
+        If the scene has no such FMU.
+    """
+    from ..fmu.python.build import build
+
+    if order.native:
+        return _build_native(order, opened, {})
+    start = opened.fmu_start()
     build(start.name, order.out, start=start.values)
     return start.name
+
+
+def _opened(what: str, names: Iterable[str]) -> Opened:
+    """Open a scene; a name that is neither one nor an FMU gets the nearest of both."""
+    if not Path(what).suffix and not Path(what).exists() and what not in bundled_scenes():
+        hint = nearest(what, sorted({*names, *bundled_scenes()}))
+        expected = "be the name of an FMU or of a scene, or a scene file"
+        raise DescriptionError("what", what, expected, hint=hint)
+    return open_scene(what)
 
 
 def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any]) -> str:
