@@ -11,12 +11,15 @@ from ..live_page.page import live_page
 __all__ = ["page_text"]
 
 
-def page_text(opened: Any, progress: Callable[[float], None]) -> str:
+def page_text(opened: Any, progress: Callable[[float], None], *, fmu: bool = False) -> str:
     """Return the text of the page of an opened scene, with the accuracy of its file.
+
+    With `fmu` it holds the native FMU of the scene.
 
     Raises
     ------
     PlanError
         If a page cannot carry it, with the reason and the cure.
     """
-    return live_page(opened.scene, getattr(opened, "accuracy", Accuracy.standard), progress)
+    accuracy = getattr(opened, "accuracy", Accuracy.standard)
+    return live_page(opened.scene, accuracy, progress, fmu=fmu)

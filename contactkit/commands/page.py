@@ -16,13 +16,14 @@ __all__ = ["page"]
 @options.scene
 @options.settings
 @options.file(".html", "Page to write.", required=True)
+@click.option("--fmu", is_flag=True, help="Put the FMU of the scene into the page, 0.8 MB.")
 @options.overwrite
-def page(scene: str, settings: tuple[str, ...], out: Path, overwrite: bool) -> None:
+def page(scene: str, settings: tuple[str, ...], out: Path, fmu: bool, overwrite: bool) -> None:
     """Write a live page that computes in a browser.
 
     It is one HTML file with sliders. SCENE is the opening of a film or a bridge by a force on a
-    mass, or at a speed. The page runs the C kernel of the native FMUs as WebAssembly and needs no
-    network; building it needs the extra native.
+    mass, or at a speed, or a device: fuel-injector, micromirror. The page runs the C kernel of the
+    native FMUs as WebAssembly and needs no network; building it needs the extra native.
     """
     from ..app.live_page import page_text
     from ..app.output import check_file, enter
@@ -32,7 +33,7 @@ def page(scene: str, settings: tuple[str, ...], out: Path, overwrite: bool) -> N
     check_file(out, ".html", overwrite=overwrite)
     opened = load(scene, settings)
     with progress(f"page of {opened.name}") as update:
-        text = page_text(opened, update)
+        text = page_text(opened, update, fmu=fmu)
     write_page(text, out)
     enter(out, "page")
     say(f"{out}: {out.stat().st_size / 1024:.0f} KiB, opens in any browser")
