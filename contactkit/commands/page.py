@@ -26,13 +26,13 @@ def page(scene: str, settings: tuple[str, ...], out: Path, overwrite: bool) -> N
     """
     from ..app.live_page import page_text
     from ..app.output import check_file, enter
-    from ..app.report_page import write_page
+    from ..files.scenes import write_text
     from .work import load
 
     check_file(out, ".html", overwrite=overwrite)
     opened = load(scene, settings)
     with progress(f"page of {opened.name}") as update:
         text = page_text(opened, update)
-    write_page(text, out)
+    write_text(out, text)
     enter(out, "page")
     say(f"{out}: {out.stat().st_size / 1024:.0f} KiB, opens in any browser")

@@ -21,7 +21,7 @@ from .._version import __version__
 from ..accuracy import Accuracy
 from ..errors import PlanError
 from ..extras import require
-from ..files.scenes import scene_text, unstructure, write_whole
+from ..files.scenes import scene_text, unstructure, write_text
 from ..scene.loading import ImposedForce
 from ..scene.scenes import SeparationScene
 from ..separation.effects.base import FilmStatus
@@ -83,9 +83,7 @@ def write_page(
         If ziglang is not installed (``pip install contactkit[native]``).
     """
     text = live_page(scene, accuracy, progress)
-    with write_whole(Path(out)) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-    return Path(out)
+    return write_text(out, text)
 
 
 def live_page(
