@@ -1,6 +1,7 @@
 """Live pages: a scene as one HTML file that runs the C kernel in the browser.
 
 page      `write_page`: the file, and what its scripts read.
+assembly  One HTML file of parts, scripts and what they read.
 scene     Scenes that a page can carry, and the numbers that its kernel reads.
 sliders   Quantities that a page moves: fields of the scene, with labels, units and ranges.
 liquid    Properties of a liquid over the temperature.

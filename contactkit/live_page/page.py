@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-import base64
-import gzip
-import json
 import math
-import re
 import warnings
 from collections.abc import Callable
-from html import escape
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -17,7 +12,6 @@ from typing import Any
 import numpy as np
 from attrs import asdict
 
-from .._version import __version__
 from ..accuracy import Accuracy
 from ..errors import PlanError
 from ..extras import require
@@ -29,6 +23,7 @@ from ..separation.effects.viscous import ViscousForce
 from ..separation.plan import Plan, plan
 from ..separation.simulate import simulate
 from ..separation.validity import path_of
+from .assembly import assembled, file_name, packed, readable
 from .family import Family, family_of
 from .liquid import LiquidTable, liquid_table
 from .module import kernel_module
@@ -40,7 +35,7 @@ __all__ = ["live_page", "page_data", "write_page"]
 
 Progress = Callable[[float], None]
 
-_SCRIPTS = ("page.css", "tables.js", "kernel.js", "chart.js", "page.js")
+_SCRIPTS = ("tables.js", "kernel.js", "chart.js", "page.js")
 _FREE = {"viscosity": "eta", "surface_tension": "gamma"}
 _INWARD = 0.2  # of the smallest first gap: as far as a mass may be drawn in
 
@@ -93,24 +88,8 @@ def live_page(
     checked_scene = check_scene(scene)  # a scene that no page carries needs no compiler
     require("ziglang", "a live page, whose kernel is compiled to WebAssembly,")
     data = page_data(checked_scene, accuracy, progress)
-    folder = Path(__file__).with_name("template")
-    made_by = f"contactkit {__version__}"
-    parts = {
-        "title": escape(data["title"]),
-        "generator": escape(made_by),
-        "foot": escape(f"{made_by}; the kernel runs in this page, and nothing is sent anywhere"),
-        # No text of a scene ends the script that holds it.
-        "data": json.dumps(data, allow_nan=False, ensure_ascii=False).replace("<", "\\u003c"),
-        "kernel": packed(kernel_module()),
-        **{name: (folder / name).read_text("utf-8") for name in _SCRIPTS},
-    }
-    page = (folder / "page.html").read_text("utf-8")
-    return re.sub(r"\{\{([\w.]+)\}\}", lambda match: parts[match[1]], page)
-
-
-def packed(content: bytes) -> str:
-    """Bytes as text, compressed; the same every time."""
-    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
+    remark = "the kernel runs in this page, and nothing is sent anywhere"
+    return assembled(data, "film.html", _SCRIPTS, remark, {"kernel": kernel_module()})
 
 
 def page_data(
@@ -136,7 +115,7 @@ def page_data(
     tables: dict[str, Any] = unstructure(scene)
     return {
         "title": scene.name or "Opening of a liquid film",
-        "name": _file_name(scene.name),
+        "name": file_name(scene.name, "film"),
         "imposed": scene.loading.imposed,
         **_loading(scene),
         "sliders": [_slider(one, tables) for one in (*sliders, *moved)],
@@ -183,10 +162,6 @@ def _family(
     return family_of(kernel, sliders, accuracy, rules, span, progress)
 
 
-def _file_name(title: str) -> str:
-    return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "film"
-
-
 def _loading(scene: SeparationScene) -> dict[str, Any]:
     loading = scene.loading
     gaps = [loading.initial_gap, loading.final_gap]
@@ -213,14 +188,6 @@ def _place_in(tables: dict[str, Any], path: str) -> list[str | int]:
         if "surface" not in body:
             rest.remove("surface")
     return [first, *rest]
-
-
-def readable(unit: str) -> str:
-    """A unit as it is printed: um is \u00b5m, m3 is m\u00b3."""
-    text = (
-        re.sub(r"\bu(?=[a-zA-Z])", "\u00b5", unit).replace("deg", "\u00b0").replace(".", "\u00b7")
-    )
-    return "" if text == "-" else text.replace("2", "\u00b2").replace("3", "\u00b3")
 
 
 def _held(kernel: KernelScene, table: LiquidTable | None, family: Family | str) -> list[str]:
@@ -280,7 +247,7 @@ def _validity(rules: Rules) -> dict[str, Any]:
 
 
 def _words(made: Plan) -> dict[str, Any]:
-    scene, forces = made.scene, made.forces
+    scene, forces, name = made.scene, made.forces, file_name(made.scene.name, "film")
     names = [force.label for force in forces if force.name != ViscousForce.column.name]
     off = [kind for kind in made.known_effects if not made.has(kind)]
     return {
@@ -292,6 +259,5 @@ def _words(made: Plan) -> dict[str, Any]:
         "broken": int(FilmStatus.BROKEN),
         "on": [f"{effect.name}: {effect.summary}" for effect in scene.effects],
         "off": [f"{kind.name}: {kind.summary}" for kind in off],
-        "fmu": f"contactkit fmu build {_file_name(scene.name)}.toml --native --out "
-        f"{_file_name(scene.name)}.fmu",
+        "fmu": f"contactkit fmu build {name}.toml --native --out {name}.fmu",
     }

@@ -1,18 +1,9 @@
 // The page: sliders move values, the kernel computes, curves and numbers follow, the address keeps it.
 
-const data = JSON.parse(document.getElementById("data").textContent);
-const by = (id) => document.getElementById(id);
 const column = (name) => COLUMNS.indexOf(name);
 const start = Object.fromEntries(data.sliders.map((s) => [s.name, s.value]));
 const values = { ...start };
 let kernel, shown, charts, logarithmic = null;
-
-function made(tag, text, attributes = {}) {
-  const found = document.createElement(tag);
-  if (text !== undefined) found.textContent = text;
-  for (const key in attributes) found.setAttribute(key, attributes[key]);
-  return found;
-}
 
 // Sliders --------------------------------------------------------------------------------------
 
@@ -166,18 +157,6 @@ function results() {
   ];
 }
 
-function row(label, small, text, attributes) {
-  const line = made("tr"), cell = made("td", label);
-  if (small) cell.append(made("span", small, { class: "small" }));
-  line.append(cell, made("td", text, { class: "number", ...attributes }));
-  return line;
-}
-
-function bounds(one) {
-  if (one.low === null) return `at most ${written(one.high, 3)}`;
-  return one.high === null ? `at least ${written(one.low, 3)}` : `${written(one.low, 3)} to ${written(one.high, 3)}`;
-}
-
 function show() {
   const axis = axisNow();
   charts.forEach((chart) => chart.draw(shown.rows, axis));
@@ -185,17 +164,7 @@ function show() {
   by("status").className = ["released", "opened"].includes(shown.how) ? "" : "bad";
   by("results").replaceChildren(...results().map(([label, name, value, unit]) =>
     row(label, "", quantity(value, unit), { id: `n-${name}`, "data-value": value })));
-  const outside = shown.validity.filter((one) => !(one.value >= (one.low ?? -Infinity) && one.value <= (one.high ?? Infinity)));
-  by("verdict").textContent = outside.length
-    ? `validity: out of range: ${outside.map((one) => one.name).join(", ")}`
-    : `validity: all ${shown.validity.length} numbers evaluated here are within their range`;
-  by("verdict").className = outside.length ? "bad" : "";
-  by("validity").replaceChildren(
-    ...shown.validity.map((one) => {
-      const bad = outside.includes(one) ? { class: "number bad" } : {};
-      return row(one.name, `${bounds(one)}; ${one.detail}`, (bad.class ? "\u2717 " : "\u2713 ") + written(one.value, 3), { "data-value": one.value, "data-number": one.name, ...bad });
-    }),
-    ...Object.entries(data.missing).map(([name, why]) => row(name, `not evaluated: ${why}`, "-", {})));
+  showValidity(shown.validity, data.missing);
 }
 
 // What the kernel says, in the words of the sliders.
@@ -243,27 +212,6 @@ function readAddress() {
     const s = data.sliders.find((one) => one.name === name), value = Number(text);
     if (s && Number.isFinite(value)) values[name] = Math.min(Math.max(value, s.low), s.high);
   }
-}
-
-function save(name, text) {
-  const link = made("a", undefined, { download: name, href: URL.createObjectURL(new Blob([text])) });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-}
-
-const isTable = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
-const isTables = (value) => Array.isArray(value) && value.length > 0 && value.every(isTable);
-
-// Tables of TOML: first what is plain, then the tables below.
-function toml(table, path = []) {
-  const lines = [], below = [];
-  for (const [key, value] of Object.entries(table)) {
-    const at = [...path, /^[\w-]+$/.test(key) ? key : JSON.stringify(key)];
-    if (isTables(value)) for (const one of value) below.push(`\n[[${at.join(".")}]]`, ...toml(one, at));
-    else if (isTable(value)) below.push(`\n[${at.join(".")}]`, ...toml(value, at));
-    else lines.push(`${at.at(-1)} = ${JSON.stringify(value)}`);
-  }
-  return [...lines, ...below];
 }
 
 function sceneNow() {
@@ -315,8 +263,7 @@ async function main() {
     data.family.changes = new Float32Array(await unpacked(data.family.changes));
   }
   kernel = await Kernel.from(by("kernel").textContent.trim());
-  data.on.forEach((text) => by("on").append(made("li", text)));
-  data.off.forEach((text) => by("off").append(made("li", text)));
+  showEffects();
   makeCharts();
   readAddress();
   makeSliders();
@@ -332,7 +279,4 @@ async function main() {
   document.body.dataset.ready = "yes";
 }
 
-main().catch((error) => {
-  by("status").textContent = error.message;
-  by("status").className = "bad";
-});
+main().catch(failed);
