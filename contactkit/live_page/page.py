@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -13,17 +13,20 @@ import numpy as np
 from attrs import asdict
 
 from ..accuracy import Accuracy
-from ..errors import PlanError
+from ..contact.result import ContactResult
+from ..errors import DescriptionError, PlanError
 from ..extras import require
 from ..files.scenes import scene_text, unstructure, write_text
 from ..scene.loading import ImposedForce
-from ..scene.scenes import SeparationScene
+from ..scene.scenes import ContactScene, SeparationScene
 from ..separation.effects.base import FilmStatus
 from ..separation.effects.viscous import ViscousForce
 from ..separation.plan import Plan, plan
 from ..separation.simulate import simulate
 from ..separation.validity import path_of
 from .assembly import assembled, file_name, packed, readable
+from .contact.loads import loads_of, solved
+from .contact.page import contact_page
 from .family import Family, family_of
 from .liquid import LiquidTable, liquid_table
 from .module import kernel_module
@@ -34,6 +37,8 @@ from .validity import POINTS, Rules, checked, logs_of, rules_of
 __all__ = ["live_page", "page_data", "write_page"]
 
 Progress = Callable[[float], None]
+Shown = SeparationScene | ContactScene | ContactResult | Sequence[ContactResult]
+"""What a page shows: a scene, or contacts that are solved already."""
 
 _SCRIPTS = ("tables.js", "kernel.js", "chart.js", "page.js")
 _FREE = {"viscosity": "eta", "surface_tension": "gamma"}
@@ -41,27 +46,38 @@ _INWARD = 0.2  # of the smallest first gap: as far as a mass may be drawn in
 
 
 def write_page(
-    scene: SeparationScene,
+    what: Shown,
     out: str | PathLike[str],
     *,
     accuracy: Accuracy | None = None,
+    loads: int | Sequence[float] | None = None,
     progress: Progress | None = None,
 ) -> Path:
-    """Write a scene as one HTML file that computes in the browser.
+    """Write one HTML file in which a scene moves: no network, no server.
 
-    The page runs the C kernel of the native FMUs as WebAssembly: no network, no server, no script
-    from elsewhere. What the kernel has as a variable is computed as a run of the scene is;
-    geometry, contact angles and humidity move through tables over a grid, whose error the page
-    states.
+    The page of a separation runs the C kernel of the native FMUs as WebAssembly. What the kernel
+    has as a variable is computed as a run of the scene is; geometry, contact angles and humidity
+    move through tables over a grid, whose error the page states.
+
+    The page of a contact holds its maps under several loads, and planes of stress where the scene
+    lists `SubsurfaceStress`, with sections under the pointer; areas, pressures, gap and forces over
+    the load with the error that `discretisation_error` estimates. Where there are more than 256
+    pixels along a side, a cell of several pixels keeps the largest pressure, the smallest gap, and
+    is in contact if one of its pixels is; the page states what it rounds. Numbers are those of all
+    pixels.
 
     Parameters
     ----------
-    scene : SeparationScene
-        With an imposed force and a mass, or an imposed speed.
+    what : SeparationScene, ContactScene, ContactResult or sequence of ContactResult
+        A separation with an imposed force and a mass, or an imposed speed; a contact, or contacts
+        that are solved already (``load_curve(..., keep_maps=True).results``), loads ascending.
     out : path
         The file to write, ``*.html``; whole or not at all.
     accuracy : Accuracy, optional
-        Tolerance of the motion, and of the film on a face; `Accuracy.standard` if not given.
+        How well a scene is solved; `Accuracy.standard` if not given.
+    loads : int or sequence of float, optional
+        Loads of a contact scene beside its own, in the quantity of its loading; or how many, each
+        half of the next. 6 if not given.
     progress : callable, optional
         Called with the fraction that is done.
 
@@ -72,24 +88,68 @@ def write_page(
 
     Raises
     ------
-    PlanError
-        If a page cannot carry the scene, with the reason and the cure.
+    PlanError, InfeasibleError, ConvergenceError
+        If a page cannot carry the scene, or a contact cannot be solved, with reason and cure.
+    DescriptionError
+        If `accuracy` or `loads` are given for what does not use them.
     MissingExtraError
-        If ziglang is not installed (``pip install contactkit[native]``).
+        Of a separation, if ziglang is not installed (``pip install contactkit[native]``).
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import contactkit as ck
+    >>> steel = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
+    >>> ball = ck.ContactScene(
+    ...     interface=ck.Interface(
+    ...         lower=ck.Body(solid=steel), upper=ck.Body(surface=ck.Paraboloid(radius=1e-3))
+    ...     ),
+    ...     window=ck.Window(width=30e-6, periodic=False),
+    ...     loading=ck.Pressing(force=0.2),
+    ...     effects=(ck.HalfSpace(),),
+    ... )
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     page = write_page(ball, f"{folder}/ball.html", accuracy=ck.Accuracy(grid=32), loads=2)
+    ...     page.stat().st_size < 100_000
+    True
     """
-    text = live_page(scene, accuracy, progress)
-    return write_text(out, text)
+    return write_text(out, live_page(what, accuracy, loads, progress))
 
 
 def live_page(
-    scene: SeparationScene, accuracy: Accuracy | None = None, progress: Progress | None = None
+    what: Shown,
+    accuracy: Accuracy | None = None,
+    loads: int | Sequence[float] | None = None,
+    progress: Progress | None = None,
 ) -> str:
-    """Return the text of the page of a scene; see `write_page`."""
-    checked_scene = check_scene(scene)  # a scene that no page carries needs no compiler
+    """Return the text of a page; see `write_page`."""
+    update = progress or (lambda done: None)
+    if isinstance(what, ContactScene):
+        wanted = loads_of(what, loads)
+        made = accuracy or Accuracy.standard
+        return contact_page(
+            solved(what, made, wanted, lambda done: update(0.5 * done)),
+            lambda done: update(0.5 + 0.5 * done),
+        )
+    _check_unused(what, accuracy, loads)
+    if isinstance(what, ContactResult | list | tuple):
+        return contact_page([what] if isinstance(what, ContactResult) else what, update)
+    scene = check_scene(what)  # a scene that no page carries needs no compiler
     require("ziglang", "a live page, whose kernel is compiled to WebAssembly,")
-    data = page_data(checked_scene, accuracy, progress)
+    data = page_data(scene, accuracy, progress)
     remark = "the kernel runs in this page, and nothing is sent anywhere"
     return assembled(data, "film.html", _SCRIPTS, remark, {"kernel": kernel_module()})
+
+
+def _check_unused(what: object, accuracy: Accuracy | None, loads: object) -> None:
+    """Refuse what the page of a separation, or of solved contacts, does not use."""
+    if loads is not None:
+        kind = type(what).__name__
+        raise DescriptionError("loads", loads, f"be left out for a {kind}: they are of a contact")
+    if accuracy is not None and isinstance(what, ContactResult | list | tuple):
+        raise DescriptionError(
+            "accuracy", accuracy, "be left out: these contacts are solved already"
+        )
 
 
 def page_data(

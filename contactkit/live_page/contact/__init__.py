@@ -1,0 +1,8 @@
+"""Pages of solved contacts: maps over load and depth, sections, areas over load.
+
+page    `contact_page`: the text of a page, and what its scripts read.
+loads   The loads of a page, contacts solved under them, and the errors of their grid.
+maps    Which maps of a result a page shows, and the areas it outlines.
+stress  Planes of stress and what is shown on them.
+images  Maps of fewer cells and levels, packed.
+"""
