@@ -130,6 +130,7 @@ def live_page(
         return contact_page(
             solved(what, made, wanted, lambda done: update(0.5 * done)),
             lambda done: update(0.5 + 0.5 * done),
+            what.loading.quantity.value,
         )
     _check_unused(what, accuracy, loads)
     if isinstance(what, ContactResult | list | tuple):

@@ -39,6 +39,7 @@ def numbers_of(result: ContactResult, errors: GridErrors) -> list[dict[str, Any]
                 "name": name,
                 "label": _label(name),
                 "value": value if math.isfinite(value) else None,
+                "unit": unit,
                 "text": shown_quantity(value, unit),
                 "remark": remark,
             }

@@ -45,14 +45,18 @@ class PageOfContact(NamedTuple):
     images: dict[str, bytes]
 
 
-def contact_page(results: Sequence[ContactResult], progress: Progress) -> str:
-    """Return the text of the page of contacts solved under one load or several."""
-    made = page_of(results, progress)
+def contact_page(
+    results: Sequence[ContactResult], progress: Progress, own: float | None = None
+) -> str:
+    """Return the text of the page of contacts solved under one load or several; see `page_of`."""
+    made = page_of(results, progress, own)
     remark = "the page holds solved contacts; nothing is computed elsewhere or sent anywhere"
     return assembled(made.data, "contact.html", _SCRIPTS, remark, made.images)
 
 
-def page_of(results: Sequence[ContactResult], progress: Progress) -> PageOfContact:
+def page_of(
+    results: Sequence[ContactResult], progress: Progress, own: float | None = None
+) -> PageOfContact:
     """Return what the scripts of a page read.
 
     Parameters
@@ -61,6 +65,8 @@ def page_of(results: Sequence[ContactResult], progress: Progress) -> PageOfConta
         Contacts of the same bodies and effects on the same grid, loads ascending.
     progress : callable
         Called with the fraction that is done.
+    own : float, optional
+        Load that the page opens with, in the quantity of the loading; the last one if not given.
 
     Raises
     ------
@@ -84,12 +90,14 @@ def page_of(results: Sequence[ContactResult], progress: Progress) -> PageOfConta
         "title": scene.name or "Contact",
         "name": file_name(scene.name, "contact"),
         "axis": axis_of(first),
+        "own": len(results) - 1 if own is None else _imposed(results).index(own),
         "loads": [_load(*pair) for pair in zip(results, errors, strict=True)],
         "window": {"width": nx * dx, "height": ny * dy, "pixel": [dy, dx], "pixels": [ny, nx]},
         "surface": surface,
         "stress": stress,
         "charts": made,
         "rows": rows,
+        "levels": {"maps": FINE, "planes": COARSE},
         "held": _held(results, surface, stress, errors),
         "on": [f"{effect.name}: {effect.summary}" for effect in scene.effects],
         "off": [f"{kind.name}: {kind.summary}" for kind in off],
@@ -109,6 +117,10 @@ def _check_alike(results: Sequence[ContactResult]) -> None:
             raise DescriptionError(
                 "results", one.plan.title, "have the effects and the grid of the first"
             )
+
+
+def _imposed(results: Sequence[ContactResult]) -> list[float]:
+    return [result.plan.scene.loading.quantity.value for result in results]
 
 
 def _load(result: ContactResult, errors: GridErrors) -> dict[str, Any]:

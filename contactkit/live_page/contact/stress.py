@@ -9,8 +9,8 @@ import numpy as np
 
 from ...analyses.subsurface import LABELS, MEASURES, planes_below
 from ...contact.effects.stress import StressPart, SubsurfaceStress
-from ...units import quantity_text
 from .images import peak_of, reduced
+from .numbers import shown_quantity
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -61,7 +61,7 @@ def places_of(result: ContactResult) -> list[Place]:
 
 
 def _called(depth: float, material: str) -> str:
-    where = quantity_text(depth, "m") + " deep" if depth > 0.0 else "at the surface"
+    where = shown_quantity(depth, "m") + " deep" if depth > 0.0 else "at the surface"
     return f"{where}, {material}" if material else where
 
 

@@ -6,9 +6,11 @@ const SVG = "http://www.w3.org/2000/svg";
 
 // Factor and name of the unit in which a size reads best.
 function readable(size, unit) {
+  if (unit === "-") return [1, ""];
   if (!(size > 0) || unit === "" || unit === "m/s") return [1, unit];
-  const found = PREFIXES.find(([factor]) => size >= 0.9999 * factor) ?? PREFIXES.at(-1);
-  return [found[0], found[1] + unit];
+  const power = Number(/^m([23])$/.exec(unit)?.[1] ?? 1); // an area from 0.1 of its unit on
+  const found = PREFIXES.find(([factor]) => size >= 0.9999 * factor ** power * 0.1 ** (power - 1)) ?? PREFIXES.at(-1);
+  return [found[0] ** power, found[1] + unit.replace("2", "\u00b2").replace("3", "\u00b3")];
 }
 
 function written(value, digits = 4) {
@@ -53,10 +55,12 @@ function node(name, attributes, parent, text) {
   return made;
 }
 
-// One chart: `series` of {label, column, colour, dashes} of one unit over a column of the rows.
+// One chart: `series` of {label, column, colour, dashes} of one unit over a column of the rows. A
+// series may have a `band`, the columns of its bounds, and `dots` at its rows; `range` is shown at least,
+// `ratio` is height over width.
 class Chart {
-  constructor(parent, { unit, title, series, onPoint }) {
-    Object.assign(this, { unit, title, series });
+  constructor(parent, { unit, title, series, range, ratio = 0.72, onPoint }) {
+    Object.assign(this, { unit, title, series, range, ratio });
     this.box = document.createElement("figure");
     this.box.className = "chart";
     this.svg = node("svg", { role: "img", "aria-label": title }, this.box);
@@ -79,7 +83,7 @@ class Chart {
 
   // `axis` is {column, unit, label, isLog}.
   draw(rows, axis) {
-    const width = Math.max(this.box.clientWidth, 300), height = Math.round(Math.min(0.72 * width, 360));
+    const width = Math.max(this.box.clientWidth, 300), height = Math.round(Math.min(this.ratio * width, 360));
     const left = 58, right = 12, top = 26, bottom = 44;
     Object.assign(this, { rows, axis, width, left, right, top, height, bottom });
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
@@ -89,12 +93,13 @@ class Chart {
     if (shown.length < 2) return;
     const xs = shown.map((row) => row[axis.column]);
     this.low = xs[0], this.high = xs.at(-1);
-    let bottomValue = 0, topValue = 0;
-    for (const { column } of this.series)
-      for (const row of shown) {
-        bottomValue = Math.min(bottomValue, row[column]);
-        topValue = Math.max(topValue, row[column]);
-      }
+    let [bottomValue, topValue] = this.range ?? [0, 0];
+    for (const { column, band = [] } of this.series)
+      for (const row of shown)
+        for (const value of [column, ...band].map((one) => row[one])) {
+          bottomValue = Math.min(bottomValue, value);
+          topValue = Math.max(topValue, value);
+        }
     if (topValue === bottomValue) topValue = bottomValue + 1;
     const [yFactor, yUnit] = readable(Math.max(topValue, -bottomValue), this.unit);
     const [xFactor, xUnit] = axis.isLog ? [1, axis.unit] : readable(this.high, axis.unit);
@@ -116,8 +121,12 @@ class Chart {
     node("text", { x: 4, y: 15, "font-size": 13.5, fill: "#1b1b1b", "font-weight": 600 }, this.svg, `${this.title} [${yUnit}]`);
     node("text", { x: width - right, y: height - 6, "text-anchor": "end", ...small }, this.svg,
       axis.isLog ? `${axis.label}, logarithmic` : `${axis.label} [${xUnit}]`);
-    for (const { column, colour, dashes } of this.series) {
-      const points = shown.map((row) => `${x(row[axis.column]).toFixed(1)} ${y(row[column]).toFixed(1)}`);
+    const along = (some, column) => some.map((row) => `${x(row[axis.column]).toFixed(1)} ${y(row[column]).toFixed(1)}`);
+    for (const { band, colour } of this.series)
+      if (band) node("path", { d: `M${[...along(shown, band[0]), ...along([...shown].reverse(), band[1])].join("L")}Z`, fill: colour, "fill-opacity": 0.16 }, this.svg);
+    for (const { column, colour, dashes, dots } of this.series) {
+      const points = along(shown, column);
+      for (const row of dots ? shown : []) node("circle", { cx: x(row[axis.column]), cy: y(row[column]), r: 3, fill: colour }, this.svg);
       node("path", { d: `M${points.join("L")}`, fill: "none", stroke: colour, "stroke-width": 2, "stroke-dasharray": dashes, "stroke-linejoin": "round" }, this.svg);
     }
     this.cross = node("line", { y1: top, y2: height - bottom, stroke: "#1b1b1b", "stroke-width": 1, visibility: "hidden" }, this.svg);

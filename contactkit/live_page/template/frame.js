@@ -46,8 +46,8 @@ function failed(error) {
   by("status").className = "bad";
 }
 
-function save(name, text) {
-  const link = made("a", undefined, { download: name, href: URL.createObjectURL(new Blob([text])) });
+function save(name, content) {
+  const link = made("a", undefined, { download: name, href: URL.createObjectURL(new Blob([content])) });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
