@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+import warnings
 from base64 import b64decode
 from gzip import decompress
 from html import unescape
@@ -54,6 +55,13 @@ def rough(*effects, pressure=2e8, **more):
         ),
         **({"name": "rough and wet"} | more),
     )
+
+
+def solved(scene, accuracy):
+    """The contact of a scene, whatever its validity."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return ck.solve(ck.plan(scene, accuracy))
 
 
 class Read:

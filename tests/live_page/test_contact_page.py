@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-import warnings
 
 import numpy as np
 import pytest
 from attrs import evolve
-from contact_pages import FORCE, STEEL, Read, ball, hertz, rough
+from contact_pages import FORCE, STEEL, Read, ball, hertz, rough, solved
 
 import contactkit as ck
 from contactkit.analyses.subsurface import MEASURES, stress_below
@@ -24,12 +23,6 @@ def read(what, **given):
     return Read(live_page(what, **given))
 
 
-def solved(scene, accuracy=DRAFT):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return ck.solve(ck.plan(scene, accuracy))
-
-
 @pytest.fixture(scope="module")
 def of_ball():
     return read(ball(), accuracy=DRAFT, loads=3)
@@ -42,7 +35,7 @@ def of_rough():
 
 def test_maps_are_those_of_the_contact_to_the_stated_step(of_ball):
     for i, force in enumerate((FORCE / 4, FORCE / 2, FORCE)):
-        result = solved(ball(force=force))
+        result = solved(ball(force=force), DRAFT)
         for name in ("pressure", "gap", "heights"):
             values, half_a_step = of_ball.map(name, i)
             assert values == pytest.approx(result[name], abs=half_a_step + 1e-6 * values.max())
@@ -70,7 +63,7 @@ def test_a_ball_is_that_of_hertz(stiffer):
 
 
 def test_numbers_validity_and_words_are_those_of_the_result(of_rough):
-    result, load = solved(rough()), of_rough.data["loads"][-1]
+    result, load = solved(rough(), DRAFT), of_rough.data["loads"][-1]
     found = of_rough.numbers()
     for name, (value, _) in result.scalars().items():
         if name not in ("residual", "energy"):
@@ -97,7 +90,7 @@ def test_numbers_validity_and_words_are_those_of_the_result(of_rough):
 
 
 def test_areas_of_the_effects_are_outlined_and_over_the_load(of_rough):
-    result = solved(rough())
+    result = solved(rough(), DRAFT)
     for name, kind, field in (
         ("plastic", ck.HardnessLimit, "is_plastic"),
         ("meniscus", ck.FilmMeniscus, "is_meniscus"),
@@ -142,7 +135,7 @@ def test_stress_is_that_below_the_contact():
 
 def test_wider_cells_lose_no_peak_and_no_contact(monkeypatch):
     monkeypatch.setattr(contact_page_module, "_CELLS", (20,))
-    page, result = read(rough(), accuracy=DRAFT, loads=1), solved(rough())
+    page, result = read(rough(), accuracy=DRAFT, loads=1), solved(rough(), DRAFT)
     assert page.data["surface"]["factor"] == 3
     assert "cells of 3 x 3 pixels" in page.data["held"][0]
     values, half_a_step = page.map("pressure")
