@@ -74,26 +74,27 @@ class Read:
 
     @property
     def names(self):
-        return [one["name"] for one in self.data["surface"]["maps"]]
+        return [one["name"] for one in self.data["views"][0]["surface"]["maps"]]
 
-    def map(self, name, load=-1, plane=0):
+    def _part(self, name, view):
+        """Part of a view that has a map, and the map."""
+        parts = (self.data["views"][view][kind] for kind in ("surface", "stress"))
+        found = [(part, one) for part in parts if part for one in part["maps"]]
+        return next((part, one) for part, one in found if one["name"] == name)
+
+    def map(self, name, load=-1, plane=0, view=0):
         """Values of a map, and half of the step it is rounded to."""
-        for part, content in (("surface", "maps"), ("stress", "planes")):
-            for one in (self.data[part] or {"maps": ()})["maps"]:
-                if one["name"] == name:
-                    image = one["images"][load][plane]
-                    return self._values(self.bytes[content], image, self.data[part]["shape"])
-        raise KeyError(name)
+        part, one = self._part(name, view)
+        content = self.bytes["planes" if "flags" not in part else "maps"]
+        return self._values(content, one["images"][load][plane], part["shape"])
 
-    def top(self, name, load=-1, plane=0):
+    def top(self, name, load=-1, plane=0, view=0):
         """Largest value of a map, and its place."""
-        maps = [*self.data["surface"]["maps"], *(self.data["stress"] or {"maps": ()})["maps"]]
-        (one,) = [one for one in maps if one["name"] == name]
-        return one["images"][load][plane]["top"]
+        return self._part(name, view)[1]["images"][load][plane]["top"]
 
-    def flags(self, name, load=-1):
-        surface = self.data["surface"]
-        bit = [one["name"] for one in surface["outlines"]].index(name)
+    def flags(self, name, load=-1, view=0):
+        surface = self.data["views"][view]["surface"]
+        bit = [one["name"] for one in self.data["outlines"]].index(name)
         image = {"start": surface["flags"][load], "bytes": 1}
         return levels(self.bytes["maps"], image, surface["shape"]) >> bit & 1 == 1
 

@@ -12,8 +12,8 @@ from contact_pages import FORCE, STEEL, Read, ball, hertz, rough, solved
 import contactkit as ck
 from contactkit.analyses.subsurface import MEASURES, stress_below
 from contactkit.errors import DescriptionError
-from contactkit.live_page.contact import page as contact_page_module
-from contactkit.live_page.contact.images import Images, peak_of, reduced
+from contactkit.live_page.contact import views
+from contactkit.live_page.contact.images import Images, Region, reduced, top_of
 from contactkit.live_page.page import live_page, write_page
 
 DRAFT = ck.Accuracy(grid=48)
@@ -130,13 +130,13 @@ def test_stress_is_that_below_the_contact():
     deepest = max(range(len(depths)), key=lambda plane: page.top("von_mises", plane=plane)[0])
     assert abs(depths[deepest] - 0.48 * radius) < 0.6e-6
     assert page.top("von_mises", plane=deepest)[0] == pytest.approx(0.62 * peak, rel=0.03)
-    assert page.data["stress"]["planes"][1] == "2 \u00b5m deep, steel"
+    assert page.data["planes"][1] == "2 \u00b5m deep, steel"
 
 
 def test_wider_cells_lose_no_peak_and_no_contact(monkeypatch):
-    monkeypatch.setattr(contact_page_module, "_CELLS", (20,))
+    monkeypatch.setattr(views, "_CELLS", (20,))
     page, result = read(rough(), accuracy=DRAFT, loads=1), solved(rough(), DRAFT)
-    assert page.data["surface"]["factor"] == 3
+    assert page.data["views"][0]["surface"]["factor"] == 3
     assert "cells of 3 x 3 pixels" in page.data["held"][0]
     values, half_a_step = page.map("pressure")
     assert values.max() == pytest.approx(result.max_pressure, abs=half_a_step)
@@ -151,11 +151,11 @@ def test_wider_cells_lose_no_peak_and_no_contact(monkeypatch):
 
 
 def test_maps_that_are_too_large_get_wider_cells(monkeypatch):
-    monkeypatch.setattr(contact_page_module, "_CELLS", (48, 24, 12))
-    monkeypatch.setattr(contact_page_module, "_LARGEST", 1_500)
+    monkeypatch.setattr(views, "_CELLS", (48, 24, 12))
+    monkeypatch.setattr(views, "_LARGEST", 1_500)
     page = read(ball(), accuracy=DRAFT, loads=1)
-    assert page.data["surface"]["factor"] == 2
-    assert page.data["surface"]["shape"] == [24, 24]
+    assert page.data["views"][0]["surface"]["factor"] == 2
+    assert page.data["views"][0]["surface"]["shape"] == [24, 24]
 
 
 def test_a_map_keeps_its_holes_signs_and_last_cells():
@@ -168,7 +168,7 @@ def test_a_map_keeps_its_holes_signs_and_last_cells():
     back, half_a_step = Read._values(None, images.content, image._asdict(), values.shape)
     assert back == pytest.approx(values, abs=half_a_step, nan_ok=True)
     assert half_a_step == pytest.approx(0.006)
-    assert peak_of(values, (2.0, 1.0)) == (5.0, 2.5, 1.0)
+    assert top_of(values, Region(slice(0, 3), slice(0, 3)), (2.0, 1.0)) == (5.0, 2.5, 1.0)
 
 
 def test_holes_are_marked_and_have_no_gap():

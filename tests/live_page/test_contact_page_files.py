@@ -35,7 +35,7 @@ def test_a_scene_file_has_the_loads_of_its_study(folder, capsys):
     page = read(folder / "page.html")
     assert [one["text"] for one in page.data["loads"]] == ["100 mN", "200 mN", "400 mN"]
     assert page.data["own"] == 1
-    assert page.data["surface"]["shape"] == [16, 16]
+    assert page.data["views"][0]["surface"]["shape"] == [16, 16]
     assert main(["page", "ball.toml", "--loads", "2", "--out", "page.html"]) == 0
     assert [one["value"] for one in read(folder / "page.html").data["loads"]] == [0.1, 0.2]
     assert main(["page", "ball.toml", "--loads", "1", "--set", "loading.force=1 N", *OUT]) == 0

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["FINE", "COARSE", "Image", "Images", "cell_factor", "peak_of", "reduced"]
+__all__ = ["FINE", "COARSE", "Image", "Images", "Region", "cell_factor", "reduced", "top_of"]
 
 Kept = Literal["largest", "smallest", "greatest size"]
 """What a cell keeps of its pixels: the largest or smallest value, or that of greatest size."""
@@ -73,17 +73,37 @@ def _by_cells(of_two: Any, values: Map, factor: int) -> Map:
     return found
 
 
-def peak_of(values: Map, pixel_size: tuple[float, float]) -> tuple[float, float, float]:
-    """Largest value of a map, and its place (x, y) [m], on all pixels.
+class Region(NamedTuple):
+    """Rows and columns of pixels."""
+
+    rows: slice
+    columns: slice
+
+    def of(self, values: Any) -> Any:
+        """Part of a map."""
+        return values[..., self.rows, self.columns]
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Pixels along y and x."""
+        return self.rows.stop - self.rows.start, self.columns.stop - self.columns.start
+
+
+def top_of(
+    values: Map, region: Region, pixel_size: tuple[float, float]
+) -> tuple[float, float, float]:
+    """Largest value of a map in a region, on all pixels, and its place (x, y) [m].
 
     Examples
     --------
-    >>> peak_of(np.array([[0.0, 2.0], [1.0, math.nan]]), (1.0, 0.5))
-    (2.0, 0.75, 0.5)
+    >>> values = np.array([[9.0, 0.0, 2.0], [9.0, 1.0, math.nan]])
+    >>> top_of(values, Region(slice(0, 2), slice(1, 3)), (1.0, 0.5))
+    (2.0, 1.25, 0.5)
     """
-    row, column = divmod(int(np.nanargmax(values)), values.shape[1])
-    (dy, dx) = pixel_size
-    return float(values[row, column]), (column + 0.5) * dx, (row + 0.5) * dy
+    cut = region.of(values)
+    row, column = divmod(int(np.nanargmax(cut)), cut.shape[1])
+    x = (column + region.columns.start + 0.5) * pixel_size[1]
+    return float(cut[row, column]), x, (row + region.rows.start + 0.5) * pixel_size[0]
 
 
 class Images:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...analyses.subsurface import LABELS, MEASURES, planes_below
 from ...contact.effects.stress import StressPart, SubsurfaceStress
-from .images import peak_of, reduced
+from .images import Region, reduced, top_of
 from .numbers import shown_quantity
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class StressMap(NamedTuple):
     """A measure on a plane, on fewer cells, and its largest value with its place (x, y) [m]."""
 
     values: Map
-    peak: tuple[float, float, float]
+    top: tuple[float, float, float]
 
 
 def places_of(result: ContactResult) -> list[Place]:
@@ -73,15 +73,23 @@ def _plane_of(part: StressPart, name: str) -> int:
 
 
 def stress_maps(
-    result: ContactResult, places: Sequence[Place], factor: int
-) -> Iterator[dict[str, StressMap]]:
-    """Measures on the planes of a page, one plane after the other, on cells of `factor` pixels."""
+    result: ContactResult, places: Sequence[Place], views: Sequence[tuple[Region, int]]
+) -> Iterator[list[dict[str, StressMap]]]:
+    """Measures on the planes of a page, one plane after the other, for regions and pixels a cell.
+
+    A plane has as many maps of each measure as there are views.
+    """
     effect = result.plan.listed(SubsurfaceStress)
     pixel = result.plan.grid.pixel_size
     for stress in planes_below(result, [place[:2] for place in places], effect):
-        found = {}
-        for name in SHOWN:
-            values = np.asarray(MEASURES[name](stress))
-            cells = reduced(values, factor, "largest").astype(np.float32)
-            found[name] = StressMap(cells, peak_of(values, pixel))
-        yield found
+        values = {name: np.asarray(MEASURES[name](stress)) for name in SHOWN}
+        yield [
+            {
+                name: StressMap(
+                    reduced(region.of(one), factor, "largest").astype(np.float32),
+                    top_of(one, region, pixel),
+                )
+                for name, one in values.items()
+            }
+            for region, factor in views
+        ]

@@ -2,15 +2,17 @@
 // the load. Nothing is computed here: what is shown was solved when the page was made.
 
 const SERIES = [["#0072b2", "none"], ["#d55e00", "7 4"], ["#009e73", "2 3"], ["#cc79a7", "10 3 2 3"], ["#000000", "1 2"]];
-const maps = [...data.surface.maps.map((one) => ({ ...one, of: data.surface })),
-  ...(data.stress?.maps ?? []).map((one) => ({ ...one, of: data.stress }))];
+// Maps of each view: the whole window, and a close-up if its cells are wider than the pixels.
+const mapsOf = (view) => ["surface", "stress"].flatMap((kind) =>
+  (view[kind]?.maps ?? []).map((one) => ({ ...one, kind, view, of: view[kind] })));
+const views = data.views.map(mapsOf), hasStress = data.planes.length > 0;
 const initial = {};
-const now = { edges: new Set(data.surface.outlines.map((one) => one.name)) };
+const now = { edges: new Set(data.outlines.map((one) => one.name)) };
 const known = new Map();
 let bytes, view, sections, charts;
 
-const mapNow = () => maps.find((one) => one.name === now.map);
-const isStress = () => mapNow().of === data.stress;
+const mapNow = () => views[now.close].find((one) => one.name === now.map);
+const isStress = () => mapNow().kind === "stress";
 const imageNow = () => mapNow().images[now.load][isStress() ? now.plane : 0];
 
 function valuesNow() {
@@ -24,9 +26,9 @@ function valuesNow() {
 
 // Bits of the outlines on the cells of the map: stress may have wider ones than they do.
 function flagsNow() {
-  const { shape, factor, flags } = data.surface, fine = levelsAt(bytes.maps, flags[now.load], 1, shape);
-  if (!isStress() || data.stress.factor === factor) return fine;
-  const [ny, nx] = data.stress.shape, ratio = data.stress.factor / factor, found = new Uint16Array(ny * nx);
+  const { view } = mapNow(), { shape, factor, flags } = view.surface, fine = levelsAt(bytes.maps, flags[now.load], 1, shape);
+  if (!isStress() || view.stress.factor === factor) return fine;
+  const [ny, nx] = view.stress.shape, ratio = view.stress.factor / factor, found = new Uint16Array(ny * nx);
   const reached = (i, n) => [Math.floor(i * ratio), Math.min(Math.ceil((i + 1) * ratio), n)];
   for (let row = 0; row < ny; row++)
     for (let column = 0; column < nx; column++) {
@@ -38,19 +40,20 @@ function flagsNow() {
 
 // Range of the colours: of this map, or of all loads and depths.
 function rangeNow() {
-  const images = now.same ? mapNow().images.flat() : [imageNow()], levels = isStress() ? data.levels.planes : data.levels.maps;
+  const whole = views[0].find((one) => one.name === now.map);
+  const images = now.same ? whole.images.flat() : [imageNow()], levels = isStress() ? data.levels.planes : data.levels.maps;
   return [Math.min(...images.map((one) => one.low)), Math.max(...images.map((one) => one.low + levels * one.step))];
 }
 
 // Centres of the cells along a side, the last of which may be narrower.
-function centres(n, pixel, side) {
+function centres(n, pixel, first, side) {
   const width = mapNow().of.factor * pixel;
-  return Array.from({ length: n }, (_, i) => 0.5 * (i * width + Math.min((i + 1) * width, side)));
+  return Array.from({ length: n }, (_, i) => first + 0.5 * (i * width + Math.min((i + 1) * width, side)));
 }
 
 function axesNow() {
-  const { shape: [ny, nx] } = mapNow().of, { width, height, pixel } = data.window;
-  return { xs: centres(nx, pixel[1], width), ys: centres(ny, pixel[0], height) };
+  const { of: { shape: [ny, nx] }, view: { x, y, width, height } } = mapNow(), [dy, dx] = data.pixel;
+  return { xs: centres(nx, dx, x, width), ys: centres(ny, dy, y, height) };
 }
 
 const nearest = (places, value) => places.reduce((best, one, i) => (Math.abs(one - value) < Math.abs(places[best] - value) ? i : best), 0);
@@ -68,14 +71,14 @@ function sectionsNow() {
 // What is shown --------------------------------------------------------------------------------
 
 function showMap() {
-  const map = mapNow(), image = imageNow(), [low, high] = rangeNow(), outlines = data.surface.outlines;
+  const map = mapNow(), image = imageNow(), [low, high] = rangeNow(), { outlines } = data;
   const flat = map.name === "gap" || map.name === "heights" || isStress();
   const drawn = outlines.map((one, i) => ({ ...one, bit: 1 << i, colour: edgeColour(one.name, i), dark: !flat }))
     .filter((one) => one.name !== "holes" && now.edges.has(one.name) && (flat || one.name !== "contact"));
   const holes = outlines.findIndex((one) => one.name === "holes");
   view.draw({
-    ...map.of, values: valuesNow(), flags: flagsNow(), window: data.window, unit: map.unit, low, high, outlines: drawn,
-    title: isStress() ? `${map.label}, ${data.stress.planes[now.plane]}` : map.label,
+    ...map.of, values: valuesNow(), flags: flagsNow(), window: map.view, pixel: data.pixel, unit: map.unit, low, high, outlines: drawn,
+    title: isStress() ? `${map.label}, ${data.planes[now.plane]}` : map.label,
     hasNothing: !flat, nearZero: 0.5 * image.step, holes: holes < 0 ? 0 : 1 << holes, top: image.top,
   });
   const [value, x, y] = image.top;
@@ -87,7 +90,7 @@ function showMap() {
 const edgeColour = (name, i) => EDGES[name] ?? SERIES[i % SERIES.length][0];
 
 function makeSections(range) {
-  const map = mapNow(), key = `${map.name} ${range}`;
+  const map = mapNow(), key = `${map.name} ${range} ${now.close}`;
   if (sections?.key === key) return;
   by("sections").replaceChildren();
   sections = ["x", "y"].map((axis) => new Chart(by("sections"), {
@@ -135,10 +138,11 @@ function show() {
     box.querySelector("output").textContent = text;
   };
   set("load", now.load, data.loads[now.load].text);
-  if (data.stress) set("plane", now.plane, data.stress.planes[now.plane]);
+  if (hasStress) set("plane", now.plane, data.planes[now.plane]);
   by("plane-box").hidden = !isStress();
   by("which").value = now.map;
   by("same").checked = now.same;
+  by("close").checked = now.close === 1;
   showLoad();
   showMap();
   keepAddress();
@@ -147,8 +151,8 @@ function show() {
 // Address and files ----------------------------------------------------------------------------
 
 function keepAddress() {
-  const { map, plane, same, x, y } = now, load = data.loads[now.load].value;
-  const kept = { map, load, plane, same: Number(same), x: x.toPrecision(6), y: y.toPrecision(6) };
+  const { map, plane, close, same, x, y } = now, load = data.loads[now.load].value;
+  const kept = { map, load, plane, close, same: Number(same), x: x.toPrecision(6), y: y.toPrecision(6) };
   const hash = Object.entries(kept).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
   history.replaceState(null, "", `#${hash}`);
 }
@@ -157,10 +161,11 @@ function readAddress() {
   const given = new URLSearchParams(location.hash.slice(1));
   const number = (name) => (given.has(name) && Number.isFinite(Number(given.get(name))) ? Number(given.get(name)) : undefined);
   Object.assign(now, initial);
-  if (maps.some((one) => one.name === given.get("map"))) now.map = given.get("map");
+  if (views[0].some((one) => one.name === given.get("map"))) now.map = given.get("map");
   if (number("load") !== undefined) now.load = nearest(data.loads.map((one) => one.value), number("load"));
-  const last = (data.stress?.planes.length ?? 1) - 1;
-  now.plane = Math.min(Math.max(Math.round(number("plane") ?? now.plane), 0), last);
+  const within = (name, n) => Math.min(Math.max(Math.round(number(name) ?? now[name]), 0), Math.max(n - 1, 0));
+  now.plane = within("plane", data.planes.length);
+  now.close = within("close", views.length);
   if (number("same") !== undefined) now.same = number("same") !== 0;
   toTop();
   now.x = number("x") ?? now.x;
@@ -194,7 +199,7 @@ function numbersText() {
 // Controls -------------------------------------------------------------------------------------
 
 function makeControls() {
-  for (const one of maps) by("which").append(made("option", one.of === data.stress ? `${one.label}, below the surface` : one.label, { value: one.name }));
+  for (const one of views[0]) by("which").append(made("option", one.kind === "stress" ? `${one.label}, below the surface` : one.label, { value: one.name }));
   by("which").onchange = () => {
     now.map = by("which").value;
     show();
@@ -209,12 +214,19 @@ function makeControls() {
     });
   };
   slide("load", data.loads.length - 1);
-  if (data.stress) slide("plane", data.stress.planes.length - 1);
+  if (hasStress) slide("plane", data.planes.length - 1);
   by("same").onchange = () => {
     now.same = by("same").checked;
     show();
   };
-  data.surface.outlines.forEach((one, i) => {
+  by("close-box").hidden = views.length < 2;
+  by("close-size").textContent = quantity(data.views.at(-1).width, "m");
+  by("close").onchange = () => {
+    now.close = Number(by("close").checked);
+    toTop();
+    show();
+  };
+  data.outlines.forEach((one, i) => {
     if (one.name === "holes") return;
     const tick = made("input", undefined, { type: "checkbox", checked: "" }), label = made("label"), swatch = made("i");
     swatch.style.background = edgeColour(one.name, i);
@@ -286,7 +298,7 @@ async function main() {
   if (!globalThis.DecompressionStream) throw new Error("this browser has no DecompressionStream: take one of 2023 or later");
   bytes = Object.fromEntries(await Promise.all(["maps", "planes"].map(async (name) =>
     [name, new Uint8Array(await unpacked(by(name).textContent.trim()))])));
-  Object.assign(initial, { map: maps[0].name, load: data.own, plane: 0, same: true });
+  Object.assign(initial, { map: views[0][0].name, load: data.own, plane: 0, close: 0, same: true });
   view = new MapView(by("view"), { onPoint: (column, line) => {
     const { xs, ys } = axesNow();
     [now.x, now.y] = [xs[column], ys[line]];

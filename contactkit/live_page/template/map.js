@@ -51,10 +51,10 @@ class MapView {
     this.svg.addEventListener("pointerdown", at);
   }
 
-  // `shown` has values, shape, factor, window, title, unit, low, high, hasNothing, flags, outlines
+  // `shown` has values, shape, factor, window of {x, y, width, height}, pixel, title, unit, low, high, hasNothing, flags, outlines
   // of {name, bit}, holes (a bit or 0), top of [value, x, y].
   draw(shown) {
-    const { window: { width: side, height: depth, pixel }, shape: [ny, nx], factor } = shown;
+    const { window: { width: side, height: depth }, pixel, shape: [ny, nx], factor } = shown;
     const width = Math.max(this.box.clientWidth, 300), left = 50, right = 66, top = 10, bottom = 42;
     const w = width - left - right, toScale = (w * depth) / side, h = Math.min(Math.max(toScale, 70), 1.4 * w);
     Object.assign(this, { shown, left, top, w, h, cell: [(w * factor * pixel[1]) / side, (h * factor * pixel[0]) / depth] });
@@ -65,7 +65,7 @@ class MapView {
     Object.assign(this.canvas.style, { left: `${left}px`, top: `${top}px`, width: `${w}px`, height: `${h}px` });
     this.paint(w, h, nx, ny);
     this.svg.replaceChildren();
-    this.frame(side, depth, Math.abs(toScale - h) > 1);
+    this.frame(Math.abs(toScale - h) > 1);
     this.title.textContent = `${shown.title} [${this.bar(left + w + 10)}]`;
     const ring = { cx: this.xAt(shown.top[1]), cy: this.yAt(shown.top[2]), r: 7, fill: "none" };
     node("circle", { ...ring, stroke: "#000000", "stroke-width": 3.5 }, this.svg);
@@ -123,16 +123,16 @@ class MapView {
     return path;
   }
 
-  frame(side, depth, isStretched) {
-    const { left, top, w, h } = this, small = { "font-size": 12.5, fill: "#444" };
-    const [factor, unit] = readable(Math.max(side, depth), "m");
+  frame(isStretched) {
+    const { left, top, w, h, shown: { window: { x, y, width, height } } } = this, small = { "font-size": 12.5, fill: "#444" };
+    const [factor, unit] = readable(Math.max(x + width, y + height), "m");
     node("rect", { x: left, y: top, width: w, height: h, fill: "none", stroke: "#888" }, this.svg);
-    for (const tick of ticksOf(0, side / factor, false, 4)) {
+    for (const tick of ticksOf(x / factor, (x + width) / factor, false, 4)) {
       const at = this.xAt(tick * factor);
       node("line", { x1: at, x2: at, y1: top + h, y2: top + h + 5, stroke: "#888" }, this.svg);
       node("text", { x: at, y: top + h + 18, "text-anchor": "middle", ...small }, this.svg, written(tick));
     }
-    for (const tick of ticksOf(0, depth / factor, false, h < 150 ? 2 : 4)) {
+    for (const tick of ticksOf(y / factor, (y + height) / factor, false, h < 150 ? 2 : 4)) {
       const at = this.yAt(tick * factor);
       node("line", { x1: left - 5, x2: left, y1: at, y2: at, stroke: "#888" }, this.svg);
       node("text", { x: left - 8, y: at + 4, "text-anchor": "end", ...small }, this.svg, written(tick));
@@ -157,11 +157,11 @@ class MapView {
   }
 
   xAt(x) {
-    return this.left + (x / this.shown.window.width) * this.w;
+    return this.left + ((x - this.shown.window.x) / this.shown.window.width) * this.w;
   }
 
   yAt(y) {
-    return this.top + this.h - (y / this.shown.window.height) * this.h;
+    return this.top + this.h - ((y - this.shown.window.y) / this.shown.window.height) * this.h;
   }
 
   // Column and row of the cell under a place of the picture.
