@@ -113,7 +113,7 @@ def write_page(
     ...     page.stat().st_size < 100_000
     True
     """
-    return write_text(out, live_page(what, accuracy, loads, progress))
+    return write_text(Path(out), live_page(what, accuracy, loads, progress))
 
 
 def live_page(

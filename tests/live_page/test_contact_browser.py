@@ -43,6 +43,7 @@ const wait = setInterval(() => {
   note("point", [at.column, at.row, at.value].join());
   note("values", Array.from(valuesNow()).join());
   note("flags", Array.from(flagsNow()).join());
+  writeAddress();
   note("address", location.hash);
   note("sections", sectionsText());
   note("loads", numbersText());

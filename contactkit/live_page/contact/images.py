@@ -94,6 +94,8 @@ def top_of(
 ) -> tuple[float, float, float]:
     """Largest value of a map in a region, on all pixels, and its place (x, y) [m].
 
+    The smallest one if none is positive, as of the friction of a body that slides against x.
+
     Examples
     --------
     >>> values = np.array([[9.0, 0.0, 2.0], [9.0, 1.0, math.nan]])
@@ -101,7 +103,9 @@ def top_of(
     (2.0, 1.25, 0.5)
     """
     cut = region.of(values)
-    row, column = divmod(int(np.nanargmax(cut)), cut.shape[1])
+    is_negative = np.nanmax(cut) <= 0.0 > np.nanmin(cut)
+    at = np.nanargmin(cut) if is_negative else np.nanargmax(cut)
+    row, column = divmod(int(at), cut.shape[1])
     x = (column + region.columns.start + 0.5) * pixel_size[1]
     return float(cut[row, column]), x, (row + region.rows.start + 0.5) * pixel_size[0]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from attrs import frozen
 
@@ -45,7 +46,10 @@ def loads_of(scene: ContactScene, loads: int | Sequence[float] | None) -> list[f
     Examples
     --------
     >>> import contactkit as ck
-    >>> scene = ck.ContactScene(loading=ck.Pressing(force=8.0), effects=())
+    >>> steel = ck.Body(solid=ck.Material(young_modulus=210e9, poisson_ratio=0.3))
+    >>> scene = ck.ContactScene(
+    ...     interface=ck.Interface(lower=steel), loading=ck.Pressing(force=8.0), effects=()
+    ... )
     >>> loads_of(scene, 3), loads_of(scene, [2.0, 10.0])
     ([2.0, 4.0, 8.0], [2.0, 8.0, 10.0])
     """
@@ -78,7 +82,7 @@ def solved(
         warnings.simplefilter("ignore")
         if len(loads) == 1:
             return (solve_unwarned(made),)
-        series = {_SERIES[scene.loading.quantity.name]: loads}
+        series: dict[str, Any] = {_SERIES[scene.loading.quantity.name]: loads}
         return load_curve(made, keep_maps=True, progress=progress, **series).results
 
 

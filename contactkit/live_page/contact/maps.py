@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["Outline", "ShownMap", "outlines", "shown_maps"]
 
 _LEFT_OUT = ("displacement",)  # gap, heights and approach together
+_ALWAYS = ("pressure", "gap")
 _LABELS = {"contact": "in contact", "plastic": "plastic", "meniscus": "menisci"}
 _ZONES = "slip_zone"
 HOLES = "holes"
@@ -51,7 +52,7 @@ class Outline:
 
 
 def shown_maps(results: Sequence[ContactResult]) -> list[ShownMap]:
-    """Maps of results and of their effects that are not the same everywhere, pressure first."""
+    """Maps of results, and of their effects where they are not the same everywhere."""
     contents = [result.contents().quantities for result in results]
     found = []
     for name, one in contents[0].items():
@@ -64,7 +65,7 @@ def shown_maps(results: Sequence[ContactResult]) -> list[ShownMap]:
         kept: Kept = "smallest" if name == "gap" else "largest"
         if name != "heights" and any(np.nanmin(values, initial=0.0) < 0.0 for values in stack):
             kept = "greatest size"
-        if any(np.nanmin(values) < np.nanmax(values) for values in stack):
+        if name in _ALWAYS or any(np.nanmin(values) < np.nanmax(values) for values in stack):
             found.append(ShownMap(name, one.label or name, one.unit, kept, tuple(stack)))
     return found
 

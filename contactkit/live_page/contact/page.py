@@ -142,7 +142,7 @@ def _held(
     if window["stress"] is not None:
         found.append(_cells("Stress", window["stress"], COARSE))
     found.append("Numbers, maxima and curves are those of all pixels.")
-    if results[0].plan.scene.effect(Attraction) is not None:
+    if len(results) > 1 and results[0].plan.scene.effect(Attraction) is not None:
         found.append("Each state is that of an approach, from the smaller load before it.")
     reasons = list(dict.fromkeys(one.reason for one in errors if one.reason))
     found += [f"No error of the grid under some loads: {reason}" for reason in reasons]

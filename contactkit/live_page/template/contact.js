@@ -73,7 +73,7 @@ function sectionsNow() {
 function showMap() {
   const map = mapNow(), image = imageNow(), [low, high] = rangeNow(), { outlines } = data;
   const flat = map.name === "gap" || map.name === "heights" || isStress();
-  const drawn = outlines.map((one, i) => ({ ...one, bit: 1 << i, colour: edgeColour(one.name, i), dark: !flat }))
+  const drawn = outlines.map((one, i) => ({ ...one, bit: 1 << i, colour: edgeColour(one.name, i), thin: !flat && one.name === "meniscus" }))
     .filter((one) => one.name !== "holes" && now.edges.has(one.name) && (flat || one.name !== "contact"));
   const holes = outlines.findIndex((one) => one.name === "holes");
   view.draw({
@@ -82,7 +82,7 @@ function showMap() {
     hasNothing: !flat, nearZero: 0.5 * image.step, holes: holes < 0 ? 0 : 1 << holes, top: image.top,
   });
   const [value, x, y] = image.top;
-  by("top").textContent = `ring: maximum ${quantity(value, map.unit)} at x = ${quantity(x, "m")}, y = ${quantity(y, "m")}`;
+  by("top").textContent = `ring: ${value < 0 ? "minimum" : "maximum"} ${quantity(value, map.unit)} at x = ${quantity(x, "m")}, y = ${quantity(y, "m")}`;
   makeSections([low, high]);
   showPoint();
 }
@@ -150,7 +150,14 @@ function show() {
 
 // Address and files ----------------------------------------------------------------------------
 
+// Browsers refuse a hundred changes in half a minute: the address waits until the point rests.
+let waitingAddress;
 function keepAddress() {
+  clearTimeout(waitingAddress);
+  waitingAddress = setTimeout(writeAddress, 400);
+}
+
+function writeAddress() {
   const { map, plane, close, same, x, y } = now, load = data.loads[now.load].value;
   const kept = { map, load, plane, close, same: Number(same), x: x.toPrecision(6), y: y.toPrecision(6) };
   const hash = Object.entries(kept).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
@@ -273,7 +280,10 @@ function makeButtons() {
   by("csv").onclick = () => save(`${data.name}-sections.csv`, sectionsText());
   by("loads-csv").onclick = () => save(`${data.name}-loads.csv`, numbersText());
   by("png").onclick = () => view.picture((blob) => save(`${data.name}-${now.map}.png`, blob));
-  by("link").onclick = () => navigator.clipboard?.writeText(location.href);
+  by("link").onclick = () => {
+    writeAddress();
+    navigator.clipboard?.writeText(location.href);
+  };
   by("reset").onclick = () => {
     Object.assign(now, initial);
     toTop();

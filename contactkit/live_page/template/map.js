@@ -96,9 +96,10 @@ class MapView {
     context.scale(ratio, ratio);
     context.imageSmoothingEnabled = false;
     context.drawImage(own, 0, h - ny * ch, nx * cw, ny * ch); // the last cells may reach beyond the window
-    for (const { bit, colour, dark } of outlines) {
+    const fine = Math.min(1, Math.max(0.4, Math.min(cw, ch) / 3)); // of cells of a pixel or two, thin edges
+    for (const { bit, colour, thin } of outlines) {
       const path = this.edges(flags, bit, nx, ny, h);
-      for (const [style, lineWidth] of dark ? [[colour, 1]] : [["#000000a0", 2.2], [colour, 1.1]]) {
+      for (const [style, lineWidth] of thin ? [[colour, fine]] : [["#000000a0", 2.2 * fine], [colour, 1.1 * fine]]) {
         Object.assign(context, { strokeStyle: style, lineWidth });
         context.stroke(path);
       }
