@@ -309,7 +309,11 @@ def parse_quantity(value: object, unit: str, field: str = "value") -> float:
                 field, value, "carry a unit", unit=unit, hint=f"for example {example!r}"
             )
         return number
-    found, wanted = parse_unit(symbol), parse_unit(unit)
+    wanted = parse_unit(unit)
+    try:
+        found = parse_unit(symbol)
+    except DescriptionError as error:
+        raise DescriptionError(field, value, error.expected, unit=unit, hint=error.hint) from None
     if found.dimension != wanted.dimension:
         raise DescriptionError(
             field, value, f"be in a unit that converts to {unit}", hint=f"for example {example!r}"
