@@ -87,6 +87,7 @@ TOPICS = (
             "plastic_history",
         ),
     ),
+    Topic("live-pages", "Live pages", (), ("contactkit.live_page.page",)),
     Topic("errors", "Errors and units", ("errors",), ("contactkit.units",)),
     Topic("published", "Equations as published", ("as_published",)),
     Topic(
