@@ -25,12 +25,13 @@ _RESULT = "result.npz"
 
 @frozen
 class PageSource:
-    """What a page is made of: a scene or a solved contact, its accuracy, the loads of its study."""
+    """What a page is made of: a scene or a solved contact, its accuracy, its loads, its FMU."""
 
     name: str
     shown: Any
     accuracy: Accuracy | None = None
     loads: int | Sequence[float] | None = None
+    fmu: bool = False
 
     def text(self, progress: Callable[[float], None]) -> str:
         """Return the text of the page.
@@ -40,10 +41,12 @@ class PageSource:
         PlanError
             If a page cannot carry it, with the reason and the cure.
         """
-        return live_page(self.shown, self.accuracy, self.loads, progress)
+        return live_page(self.shown, self.accuracy, progress, loads=self.loads, fmu=self.fmu)
 
 
-def open_page(source: str, settings: Sequence[str], loads: int | None) -> PageSource:
+def open_page(
+    source: str, settings: Sequence[str] = (), loads: int | None = None, *, fmu: bool = False
+) -> PageSource:
     """Open a scene by file or name, a result file, or the folder of one.
 
     Parameters
@@ -54,6 +57,8 @@ def open_page(source: str, settings: Sequence[str], loads: int | None) -> PageSo
         Texts ``path=value`` for a scene.
     loads : int, optional
         How many loads of a contact; None: those that the study of its file varies, if it does.
+    fmu : bool
+        Whether the page holds the native FMU of the scene.
 
     Raises
     ------
@@ -62,14 +67,14 @@ def open_page(source: str, settings: Sequence[str], loads: int | None) -> PageSo
     """
     path = Path(source)
     if path.is_dir() or path.suffix == ".npz":
-        return _of_result(path / _RESULT if path.is_dir() else path, settings, loads)
+        return _of_result(path / _RESULT if path.is_dir() else path, settings, loads, fmu)
     opened = with_settings(open_scene(source), settings)
     scene = opened.scene
     accuracy = getattr(opened, "accuracy", Accuracy.standard)
     wanted: int | Sequence[float] | None = loads
     if loads is None and isinstance(scene, ContactScene):
         wanted = _studied(scene, accuracy, getattr(opened, "parameters", {}))
-    return PageSource(opened.name, scene, accuracy, wanted)
+    return PageSource(opened.name, scene, accuracy, wanted, fmu)
 
 
 def _studied(scene: ContactScene, accuracy: Accuracy, parameters: Any) -> Sequence[float] | None:
@@ -81,12 +86,14 @@ def _studied(scene: ContactScene, accuracy: Accuracy, parameters: Any) -> Sequen
     return [float(row[0]) for row in axis.values]
 
 
-def _of_result(path: Path, settings: Sequence[str], loads: int | None) -> PageSource:
+def _of_result(
+    path: Path, settings: Sequence[str], loads: int | None, fmu: bool
+) -> PageSource:
     """A solved contact as it is; of a separation the scene, which the page computes again."""
     if settings:
         raise DescriptionError("--set", settings[0], f"be left out for the saved result {path}")
     result = load_result(path)
     name = result.plan.scene.name or result.plan.title
     if isinstance(result, ContactResult):
-        return PageSource(name, result, loads=loads)
-    return PageSource(name, result.plan.scene, result.plan.accuracy, loads)
+        return PageSource(name, result, loads=loads, fmu=fmu)
+    return PageSource(name, result.plan.scene, result.plan.accuracy, loads, fmu)

@@ -1,7 +1,11 @@
-"""Live pages: a scene as one HTML file that runs the C kernel in the browser.
+"""Live pages: a scene as one HTML file that moves in the browser.
 
-page      `write_page`: the file, and what its scripts read.
+page      `write_page`: the file.
 assembly  One HTML file of parts, scripts and what they read.
+contact   Pages of solved contacts: maps over load and depth.
+film_page What the scripts of the page of a film read.
+valve_page What those of the valve of an injector read.
+fmu_files FMUs that a page offers.
 scene     Scenes that a page can carry, and the numbers that its kernel reads.
 sliders   Quantities that a page moves: fields of the scene, with labels, units and ranges.
 liquid    Properties of a liquid over the temperature.

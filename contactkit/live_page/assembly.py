@@ -68,7 +68,7 @@ def packed(content: bytes) -> str:
     return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
 
 
-def file_name(title: str, otherwise: str) -> str:
+def file_name(title: str, otherwise: str = "film") -> str:
     """Name of a file of a title, without its ending."""
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or otherwise
 
@@ -76,6 +76,9 @@ def file_name(title: str, otherwise: str) -> str:
 def readable(unit: str) -> str:
     """A unit as it is printed: um is \u00b5m, m3 is m\u00b3."""
     text = (
-        re.sub(r"\bu(?=[a-zA-Z])", "\u00b5", unit).replace("deg", "\u00b0").replace(".", "\u00b7")
+        re.sub(r"\bu(?=[a-zA-Z])", "\u00b5", unit)
+        .replace("ohm", "\u03a9")
+        .replace("deg", "\u00b0")
+        .replace(".", "\u00b7")
     )
     return "" if text == "-" else text.replace("2", "\u00b2").replace("3", "\u00b3")

@@ -45,6 +45,8 @@ class PreparedFilm(NamedTuple):
     force: float
     """Static force at the start [N], or 0."""
     prepared: PreparedScene[SeparationScene]
+    effects: tuple[type[SeparationForce], ...]
+    """Effect that each law of a film is of, in the order of its laws."""
 
 
 def moving(scene: SeparationScene, mass: float | None) -> SeparationScene:
@@ -125,7 +127,12 @@ def prepared_film(
         grid=_grid(common),
     )
     force = made.film.static_force(loading.initial_gap)
-    return PreparedFilm(tables, common.lowest, force, made.prepared)
+    effects = tuple(
+        type(effect)
+        for effect in _forces(scene)
+        for _ in _parts(common, effect, made.film.laws[type(effect)])
+    )
+    return PreparedFilm(tables, common.lowest, force, made.prepared, effects)
 
 
 class _Common(NamedTuple):
@@ -151,7 +158,7 @@ def _film(common: _Common, fraction: float) -> Film:
     """Tables of the film with a fraction of the volume."""
     made = common.plan
     film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
-    forces = [e for e in made.scene.effects if isinstance(e, SeparationForce)]
+    forces = _forces(made.scene)
     rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
     is_liquid = any(kind.newtonian is not None for kind in film.laws)
     shape = _liquid_shape(prepared) if is_liquid else None
@@ -171,6 +178,10 @@ def _film(common: _Common, fraction: float) -> Film:
         rim_square=disc.rim * disc.rim if disc else 0.0,
         volume=disc.volume if disc else 0.0,
     )
+
+
+def _forces(scene: SeparationScene) -> list[SeparationForce]:
+    return [effect for effect in scene.effects if isinstance(effect, SeparationForce)]
 
 
 def _liquid_shape(prepared: PreparedScene[SeparationScene]) -> FilmShape:

@@ -241,6 +241,7 @@ def test_the_tables_of_the_scene_are_the_scene():
         ([1], {}, "be solved contacts, one or more"),
         ([], {"accuracy": DRAFT}, "these contacts are solved already"),
         ([], {"loads": 2}, "be left out for a list"),
+        (ball(), {"fmu": True}, "a ContactScene has no FMU on its page"),
     ],
 )
 def test_what_a_page_does_not_use_is_refused(what, given, message, tmp_path):

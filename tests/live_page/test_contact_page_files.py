@@ -69,6 +69,6 @@ def test_of_a_saved_separation_the_scene_is_shown(folder):
 
     with pytest.warns(ck.ValidityWarning):
         ck.simulate(ck.plan(film())).save(folder / "film.npz")
-    found = open_page("film.npz", (), None)
+    found = open_page("film.npz")
     assert found.shown == film()
     assert found.name == "film of a page"

@@ -57,12 +57,20 @@ def test_without_the_compiler_the_extra_is_named(monkeypatch, tmp_path):
     assert [*tmp_path.iterdir()] == []
 
 
+def test_a_speed_has_no_fmu_and_is_refused_before_anything_is_built(monkeypatch, tmp_path):
+    monkeypatch.setattr("contactkit.live_page.page.page_data", None)
+    scene = evolve(film(cavity=False), loading=SPEED)
+    with pytest.raises(ck.PlanError, match=r"imposes a speed, and the FMU .* leave out the FMU"):
+        write_page(scene, tmp_path / "film.html", fmu=True)
+    assert [*tmp_path.iterdir()] == []
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (("film.toml", "--loads", "3", "--out", "page.html"), "loads"),
         (("none.npz", "--out", "page.html"), "none.npz"),
-        (("fuel-injector", "--out", "page.html"), "InjectorScene"),
+        (("bridges", "--out", "page.html"), "Bridges"),
         (("film.toml", "--out", "page.txt"), "page.txt"),
         (("none.toml", "--out", "page.html"), "exist"),
     ],
