@@ -86,9 +86,7 @@ def _studied(scene: ContactScene, accuracy: Accuracy, parameters: Any) -> Sequen
     return [float(row[0]) for row in axis.values]
 
 
-def _of_result(
-    path: Path, settings: Sequence[str], loads: int | None, fmu: bool
-) -> PageSource:
+def _of_result(path: Path, settings: Sequence[str], loads: int | None, fmu: bool) -> PageSource:
     """A solved contact as it is; of a separation the scene, which the page computes again."""
     if settings:
         raise DescriptionError("--set", settings[0], f"be left out for the saved result {path}")

@@ -94,11 +94,11 @@ def test_it_shows_the_contact_under_its_load(page, tmp_path):
 
 
 def test_the_address_moves_load_map_and_point(page, tmp_path):
-    dom = shown(page, tmp_path, "#map=gap&load=1e8&x=2e-6&y=5e-6")
+    dom = shown(page, tmp_path, "#map=gap&load=1e8&x=2.1e-6&y=5.1e-6")
     assert "mean pressure 100 MPa: " in dom
     gap = solved(rough(pressure=1e8), FINE).gap
     column, row, value = (float(one) for one in pre(dom, "point").split(","))
-    assert (column, row) == (11, 29) or (column, row) == (12, 30)
+    assert (column, row) == (12, 30)
     step = np.ptp(gap) / 2000.0
     assert value == pytest.approx(gap[int(row), int(column)], abs=1.01 * step)
     lines = [one.split(",") for one in pre(dom, "sections").splitlines()]

@@ -186,9 +186,8 @@ def test_the_fmu_in_a_page_is_that_of_the_scene(tmp_path, monkeypatch):
     scene = film(volume=None, cavity=False)  # no tables over a grid but of the radius
     scene = evolve(scene, effects=(ck.ViscousForce(),))
     page = write_page(scene, tmp_path / "film.html", fmu=True)
-    save = (
-        "save = (name, content) => { saved = name + ' ' + btoa(String.fromCharCode(...content)); }"
-    )
+    text = "Array.from(content, (byte) => String.fromCharCode(byte)).join('')"
+    save = f"save = (name, content) => {{ saved = name + ' ' + btoa({text}); }}"
     probe = PROBE.replace("curves()]]", "curves()], ['saved-fmu', fmuSaved()]]").replace(
         '<script>addEventListener("load"',
         "<script>let saved = ''; function fmuSaved() { const was = save; "
