@@ -28,9 +28,9 @@ Progress = Callable[[float], None]
 # Cells along a side of a map at most: the first that leaves the packed maps below the limit. A
 # phone shows 340 and a screen 420; 256 cells of a rough contact take 0.15 MB under each load.
 _CELLS = (256, 192, 128, 96, 64)
-_STRESS_CELLS = (128, 64, 32)
+_STRESS_CELLS = (128, 64, 43, 32)
 _LARGEST = 1_700_000  # characters of the packed maps of the window
-_LARGEST_STRESS = 900_000  # and of its stress
+_LARGEST_STRESS = 1_000_000  # and of its stress
 _CLOSE = 64  # pixels along a side of the close-up, in which spots of some pixels are seen
 
 
