@@ -96,10 +96,15 @@ def _page(title: str, sections: Sequence[str], source: str) -> str:
 def _printed_sections(folder: Path, record: Record, command: str, printed: Printed) -> list[str]:
     """Sections of what a command printed: a study, a cost, or the run of a device."""
     numbers = [(name.replace("_", " "), text) for name, text in printed.numbers.items()]
+    plan, _, sources = printed.plan.partition("\nsources:\n")
     return [
         section(f"Figures of {command}", *_pictures(folder, record, command)),
         section(f"Printed by {command}", listing(printed.text)),
         section(f"Numbers of {command}", table(numbers) if numbers else ""),
+        section("Validity", table(printed.validity) if printed.validity else ""),
+        section("Plan", listing(plan) if plan else ""),
+        section("Scene", listing(printed.scene) if printed.scene else ""),
+        section("Sources", bullets([line.strip() for line in sources.splitlines()])),
     ]
 
 

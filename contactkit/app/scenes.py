@@ -51,6 +51,9 @@ class Opened(Protocol):
     def fmu_start(self) -> FmuStart:
         """Name of the FMU that holds this scene, and the start values to bake in."""
 
+    def described(self, report: Report) -> dict[str, Any]:
+        """Plan, scene and validity of a report for its page, where no result file has them."""
+
 
 def open_scene(name: str) -> OpenedScene | OpenedDevice:
     """Open a scene file, or a scene of this package by its name, such as ``fuel-injector``.
@@ -134,6 +137,10 @@ class OpenedScene:
 
         return fmu_start(self.scene, self.accuracy)
 
+    def described(self, report: Report) -> dict[str, Any]:
+        """See `Opened.described`: its result has them."""
+        return {}
+
 
 @frozen
 class OpenedDevice:
@@ -174,3 +181,14 @@ class OpenedDevice:
     def fmu_start(self) -> FmuStart:
         """See `Opened.fmu_start`."""
         return self.scene.report.fmu_start(self.scene)
+
+    def described(self, report: Report) -> dict[str, Any]:
+        """See `Opened.described`."""
+        from .report_page import validity_rows
+
+        rows = [(case, *row) for case, number in report.validity for row in validity_rows([number])]
+        return {
+            "plan": self.plan_text(),
+            "scene": str(self.scene),
+            "validity": tuple(sorted(rows, key=lambda row: "OUT OF RANGE" not in row[2])),
+        }

@@ -35,10 +35,10 @@ def page(
     """Write a live page that opens in a browser.
 
     It is one HTML file that needs no network. SCENE is the opening of a film or a bridge by a
-    force on a mass, or at a speed, or a device, fuel-injector: the page has sliders and runs the C
-    kernel of the native FMUs as WebAssembly; building it needs the extra native. Or SCENE is a
-    contact: the page has its maps over load and depth, with sections. Instead of a scene it may be
-    a saved result, or the folder of one.
+    force on a mass, or at a speed, or a device (fuel-injector, micromirror): the page has sliders
+    and runs the C kernel of the native FMUs as WebAssembly; building it needs the extra native. Or
+    SCENE is a contact: the page has its maps over load and depth, with sections. Instead of a scene
+    it may be a saved result, or the folder of one.
     """
     from ..app.live_page import open_page
     from ..app.output import check_file, enter

@@ -15,21 +15,23 @@ from ..errors import PlanError
 from ..files.scenes import scene_text, unstructure
 from ..scene.loading import ImposedForce
 from ..scene.scenes import SeparationScene
-from ..separation.effects.base import FilmLimit, FilmStatus
+from ..separation.effects.base import FilmLimit, FilmStatus, SeparationForce
 from ..separation.plan import Plan, plan
 from ..separation.simulate import simulate
 from ..separation.validity import path_of
 from .assembly import file_name, packed, readable
 from .family import Family, family_of
-from .liquid import LiquidTable, liquid_table
+from ..liquids.temperature_table import LiquidTable, liquid_table
 from .scene import KernelScene, check_scene, kernel_scene
 from .sliders import Slider, family_sliders, sliders_of
 from .validity import POINTS, Rules, checked, logs_of, rules_of
 
 __all__ = [
     "Progress",
+    "family_data",
     "film_data",
     "fmu_command",
+    "force_parts",
     "given_family",
     "held",
     "kernel_data",
@@ -79,7 +81,7 @@ def film_data(
         "sliders": [slider_data(one, tables) for one in moved],
         "held": [*held(table, family), *_start_stays(kernel)],
         **kernel_data(kernel, accuracy, rules, span, family, table),
-        "parts": _parts(kernel, made),
+        "parts": force_parts(kernel.film.effects),
         "limits": " and ".join(
             effect.name for effect in scene.effects if isinstance(effect, FilmLimit)
         ),
@@ -103,7 +105,7 @@ def kernel_data(
     return {
         "numbers": packed_numbers([*numbers, *logs]),
         "count": len(numbers),
-        "family": _family_data(family) if isinstance(family, Family) else None,
+        "family": family_data(family) if isinstance(family, Family) else None,
         "liquid": asdict(table) if table is not None else None,
         "properties": _properties(kernel),
         **_validity(rules),
@@ -193,7 +195,8 @@ def _start_stays(kernel: KernelScene) -> list[str]:
     return ["The gap at the start stays: the radius of this film belongs to it."] if stays else []
 
 
-def _family_data(family: Family) -> dict[str, Any]:
+def family_data(family: Family) -> dict[str, Any]:
+    """Return tables over a grid as ``template/tables.js`` reads them."""
     return {
         "sliders": [slider.name for slider in family.sliders],
         "nodes": [nodes.tolist() for nodes in family.nodes],
@@ -229,9 +232,8 @@ def _validity(rules: Rules) -> dict[str, Any]:
     }
 
 
-def _parts(kernel: KernelScene, made: Plan) -> list[dict[str, Any]]:
+def force_parts(laws: Sequence[type[SeparationForce]]) -> list[dict[str, Any]]:
     """Each force of the film and the solids, with the laws of the kernel that it is the sum of."""
-    laws = kernel.film.effects
     return [
         {
             "label": effect.column.label,

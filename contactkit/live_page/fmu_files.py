@@ -9,16 +9,25 @@ from pathlib import Path
 from ..errors import PlanError
 from ..fmu.native.build import build_native
 from ..fmu.native.drive import build_native_drive
+from ..fmu.native.tip import build_native_tip
+from ..fmu.slaves.tip_contact import tip_values
 from ..fmu.slaves.valve_drive import drive_values
 from ..models.injector.scene import InjectorScene, end_stop_faces
+from ..models.micromirror.scene import MicromirrorScene
+from ..models.micromirror.tip_film import tip_scene
 from ..scene.loading import ImposedForce
 from ..scene.scenes import SeparationScene
 
-__all__ = ["fmu_files"]
+__all__ = ["PageScene", "fmu_files"]
+
+PageScene = SeparationScene | InjectorScene | MicromirrorScene
+"""What a live page can hold."""
 
 
-def fmu_files(scene: SeparationScene | InjectorScene, name: str) -> dict[str, bytes]:
-    """Native FMUs of a scene by file name: of an injector its valve and its film.
+def fmu_files(scene: PageScene, name: str) -> dict[str, bytes]:
+    """Native FMUs of a scene by file name.
+
+    Of an injector its valve and its film, of a micromirror the tips of a side.
 
     Raises
     ------
@@ -31,7 +40,7 @@ def fmu_files(scene: SeparationScene | InjectorScene, name: str) -> dict[str, by
         return {path.name: path.read_bytes() for path in _built(scene, name, Path(folder))}
 
 
-def _built(scene: SeparationScene | InjectorScene, name: str, folder: Path) -> Iterator[Path]:
+def _built(scene: PageScene, name: str, folder: Path) -> Iterator[Path]:
     if isinstance(scene, InjectorScene):
         valve, film = scene.valve, scene.separation(scene.temperature)
         curve = end_stop_faces(valve)
@@ -39,6 +48,12 @@ def _built(scene: SeparationScene | InjectorScene, name: str, folder: Path) -> I
             folder / f"{name}-valve.fmu", start=drive_values(valve), curve=curve
         )
         yield build_native(film, folder / f"{name}-film.fmu")
+        return
+    if isinstance(scene, MicromirrorScene):
+        tips = scene.mirror.tips
+        values = tip_values(tip_scene(scene.tip, scene.study.humidity))
+        values |= {"N": tips.per_side, "c": tips.damping}
+        yield build_native_tip(folder / f"{name}-tips.fmu", start=values)
         return
     if not isinstance(scene.loading, ImposedForce):
         raise PlanError(

@@ -14,20 +14,20 @@ from ..errors import DescriptionError
 from ..extras import require
 from ..files.scenes import write_text
 from ..models.injector.scene import InjectorScene
-from ..scene.scenes import ContactScene, SeparationScene
+from ..models.micromirror.scene import MicromirrorScene
+from ..scene.scenes import ContactScene
 from .assembly import assembled, file_name
 from .contact.loads import loads_of, solved
 from .contact.page import contact_page
 from .film_page import film_data
-from .fmu_files import fmu_files
+from .fmu_files import PageScene, fmu_files
+from .mirror_page import mirror_data
 from .module import kernel_module
 from .scene import check_scene
 from .valve_page import valve_data
 
 __all__ = ["PageScene", "Shown", "live_page", "page_data", "write_page"]
 
-PageScene = SeparationScene | InjectorScene
-"""Scenes whose pages compute in the browser."""
 Shown = PageScene | ContactScene | ContactResult | Sequence[ContactResult]
 """What a page shows: a scene, or contacts that are solved already."""
 Progress = Callable[[float], None]
@@ -59,9 +59,10 @@ def write_page(
 
     Parameters
     ----------
-    what : SeparationScene, InjectorScene, ContactScene, ContactResult or sequence of them
-        A film with an imposed force and a mass, or an imposed speed; the valve of an injector with
-        its film, coupled as its two FMUs are; a contact, or contacts that are solved already
+    what : SeparationScene, ContactScene, ContactResult or sequence of them, or a device
+        A film with an imposed force and a mass, or an imposed speed; an `InjectorScene`, the valve
+        of an injector with its film, coupled as its two FMUs are; a `MicromirrorScene`, with the
+        tips of both sides; a contact, or contacts that are solved already
         (``load_curve(..., keep_maps=True).results``), loads ascending.
     out : path
         The file to write, ``*.html``; whole or not at all.
@@ -132,7 +133,8 @@ def live_page(
     if isinstance(what, ContactResult | list | tuple):
         return contact_page([what] if isinstance(what, ContactResult) else what, update)
     # A scene that no page carries needs no compiler.
-    scene = what if isinstance(what, InjectorScene) else check_scene(what)
+    is_device = isinstance(what, InjectorScene | MicromirrorScene)
+    scene = what if is_device else check_scene(what)
     require("ziglang", "a live page, whose kernel is compiled to WebAssembly,")
     files = fmu_files(scene, file_name(scene.name, "film")) if fmu else {}
     data = page_data(scene, accuracy, progress)
@@ -164,4 +166,6 @@ def page_data(
     """Return what the scripts of a page read: sliders, numbers of the kernel, tables, words."""
     if isinstance(scene, InjectorScene):
         return valve_data(scene, accuracy, progress)
+    if isinstance(scene, MicromirrorScene):
+        return mirror_data(scene, accuracy, progress)
     return film_data(scene, accuracy, progress)

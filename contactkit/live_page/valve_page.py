@@ -40,7 +40,7 @@ from .film_page import (
     slider_data,
     words,
 )
-from .liquid import LiquidTable, liquid_table
+from ..liquids.temperature_table import LiquidTable, liquid_table
 from .scene import KernelScene, kernel_scene
 from .sliders import Slider, family_sliders, sliders_of, with_unit
 from .validity import Rules, checked, logs_of, rules_of

@@ -7,7 +7,6 @@ import re
 import shutil
 import subprocess
 import warnings
-from base64 import b64decode
 from functools import partial
 from html import unescape
 
@@ -179,6 +178,17 @@ def test_what_the_kernel_refuses_the_page_says(page, tmp_path):
     assert numbers(dom) == {}
 
 
+SAVE_FMU = """<script>function fmuSaved() {
+  let saved = "";
+  const was = save, hex = (byte) => byte.toString(16).padStart(2, "0");
+  save = (name, content) => { saved = `${name} ${Array.from(content, hex).join("")}`; };
+  document.querySelector("#fmus button").click();
+  save = was;
+  return saved;
+}
+"""
+
+
 def test_the_fmu_in_a_page_is_that_of_the_scene(tmp_path, monkeypatch):
     """As built for this computer; the button saves the bytes of `build_native`."""
     here = partial(build_native, platforms=[local()])
@@ -186,18 +196,13 @@ def test_the_fmu_in_a_page_is_that_of_the_scene(tmp_path, monkeypatch):
     scene = film(volume=None, cavity=False)  # no tables over a grid but of the radius
     scene = evolve(scene, effects=(ck.ViscousForce(),))
     page = write_page(scene, tmp_path / "film.html", fmu=True)
-    text = "Array.from(content, (byte) => String.fromCharCode(byte)).join('')"
-    save = f"save = (name, content) => {{ saved = name + ' ' + btoa({text}); }}"
     probe = PROBE.replace("curves()]]", "curves()], ['saved-fmu', fmuSaved()]]").replace(
-        '<script>addEventListener("load"',
-        "<script>let saved = ''; function fmuSaved() { const was = save; "
-        f"{save}; document.querySelector('#fmus button').click(); save = was; return saved; }}\n"
-        'addEventListener("load"',
+        "<script>", SAVE_FMU, 1
     )
     page.write_text(page.read_text("utf-8").replace("</body>", probe), "utf-8")
     name, content = pre(shown(page, tmp_path), "saved-fmu").split()
     assert name == "film-of-a-page.fmu"
-    assert b64decode(content) == here(scene, tmp_path / "own.fmu").read_bytes()
+    assert bytes.fromhex(content) == here(scene, tmp_path / "own.fmu").read_bytes()
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ from base64 import b64decode
 import numpy as np
 import pytest
 
-from contactkit.live_page.liquid import LiquidTable
+from contactkit.liquids.temperature_table import LiquidTable
 
 NEEDED = ("ziglang", "wasmtime")
 MISSING = [name for name in NEEDED if importlib.util.find_spec(name) is None]
