@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ContactkitError
-from ..files.scenes import FileError, FileProblem, read_tables
+from ..files.scenes import read_tables
+from ..files.structure import FileError, FileProblem
 from .scenes import open_tables
 
 __all__ = ["with_physics"]

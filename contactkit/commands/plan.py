@@ -48,7 +48,7 @@ def check(scene: str, settings: tuple[str, ...]) -> None:
 
 def _checked(scene: str, settings: tuple[str, ...]) -> Opened:
     """Open a scene; what its physics refuses is reported with the mistakes of its fields."""
-    from ..files.scenes import FileError
+    from ..files.structure import FileError
 
     try:
         return load(scene, settings)

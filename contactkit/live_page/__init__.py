@@ -5,6 +5,7 @@ assembly  One HTML file of parts, scripts and what they read.
 contact   Pages of solved contacts: maps over load and depth.
 film_page What the scripts of the page of a film read.
 valve_page What those of the valve of an injector read.
+mirror_page What those of a micromirror read.
 fmu_files FMUs that a page offers.
 scene     Scenes that a page can carry, and the numbers that its kernel reads.
 sliders   Quantities that a page moves: fields of the scene, with labels, units and ranges.

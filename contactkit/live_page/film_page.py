@@ -13,6 +13,7 @@ from attrs import asdict
 from ..accuracy import Accuracy
 from ..errors import PlanError
 from ..files.scenes import scene_text, unstructure
+from ..liquids.temperature_table import LiquidTable, liquid_table
 from ..scene.loading import ImposedForce
 from ..scene.scenes import SeparationScene
 from ..separation.effects.base import FilmLimit, FilmStatus, SeparationForce
@@ -21,7 +22,6 @@ from ..separation.simulate import simulate
 from ..separation.validity import path_of
 from .assembly import file_name, packed, readable
 from .family import Family, family_of
-from ..liquids.temperature_table import LiquidTable, liquid_table
 from .scene import KernelScene, check_scene, kernel_scene
 from .sliders import Slider, family_sliders, sliders_of
 from .validity import POINTS, Rules, checked, logs_of, rules_of

@@ -1,4 +1,4 @@
-"""Live pages: a scene as one HTML file that computes in the browser."""
+"""Live pages: a scene as one HTML file that moves in the browser."""
 
 from __future__ import annotations
 
@@ -133,8 +133,7 @@ def live_page(
     if isinstance(what, ContactResult | list | tuple):
         return contact_page([what] if isinstance(what, ContactResult) else what, update)
     # A scene that no page carries needs no compiler.
-    is_device = isinstance(what, InjectorScene | MicromirrorScene)
-    scene = what if is_device else check_scene(what)
+    scene = what if isinstance(what, InjectorScene | MicromirrorScene) else check_scene(what)
     require("ziglang", "a live page, whose kernel is compiled to WebAssembly,")
     files = fmu_files(scene, file_name(scene.name, "film")) if fmu else {}
     data = page_data(scene, accuracy, progress)

@@ -21,6 +21,7 @@ from ..fmu.native.data import contents_of
 from ..fmu.native.faces import faces_of
 from ..fmu.native.models import native_model
 from ..fmu.slaves.valve_drive import PLACES, ValveDrive, drive_values
+from ..liquids.temperature_table import LiquidTable, liquid_table
 from ..models.injector.assumptions import NAMES, RANGES
 from ..models.injector.monolithic import simulate
 from ..models.injector.scene import InjectorScene, end_stop_faces
@@ -40,7 +41,6 @@ from .film_page import (
     slider_data,
     words,
 )
-from ..liquids.temperature_table import LiquidTable, liquid_table
 from .scene import KernelScene, kernel_scene
 from .sliders import Slider, family_sliders, sliders_of, with_unit
 from .validity import Rules, checked, logs_of, rules_of
