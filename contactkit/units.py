@@ -225,9 +225,10 @@ def parse_unit(text: str) -> Unit:
     if len(text) > _LONGEST:
         raise DescriptionError("unit", text, f"have at most {_LONGEST} letters")
     factor, dimension = 1.0, dict[str, int]()
-    first, *rest = re.split(r"([./*·⋅])", text.replace(" ", ""))
+    first, *rest = re.split(r"([./*·⋅])", text)
     for sign, part in [("", first), *zip(rest[::2], rest[1::2], strict=True)]:
-        match = re.fullmatch(r"(1|[^\d^-]+)(?:\^?(-?\d{1,9}))?", part)
+        part = part.strip()
+        match = re.fullmatch(r"(1|[^\d^-]+)(?:\^?(-?\d{1,9}))?", part.replace(" ", ""))
         found = _symbol(match[1]) if match else None
         if match is None or found is None:
             raise DescriptionError(

@@ -12,6 +12,7 @@ from ..export.html import numbers_table, table
 from ..export.pages import bullets, figure, listing, page, section
 from ..extras import missing_extra
 from ..files.results import AnyResult, load_result
+from ..scene.answer import headline
 from .output import RECORD, Printed, Record, read_record
 from .run import cost_text, draw_result
 
@@ -132,7 +133,7 @@ def _title(result: AnyResult) -> str:
 def _result_sections(result: AnyResult) -> list[str]:
     """Numbers, validity, plan, scene, sources and cost of a result."""
     return [
-        section("Result", numbers_table(f"{result.status}: {result.message}", result.scalars())),
+        section("Result", numbers_table(headline(result.status, result.message), result.scalars())),
         section("Validity", table(validity_rows(result.validity))),
         section("Errata of what is taken as printed", bullets([str(one) for one in result.errata])),
         section("Plan", result.plan._repr_html_()),

@@ -21,7 +21,7 @@ from .study import StudyOptions, study_lines
 if TYPE_CHECKING:
     from .fit import FitOptions
 
-__all__ = ["Opened", "OpenedDevice", "OpenedScene", "open_scene", "open_tables"]
+__all__ = ["Opened", "OpenedDevice", "OpenedScene", "described", "open_scene", "open_tables"]
 
 Progress = Callable[[float], None]
 
@@ -50,9 +50,6 @@ class Opened(Protocol):
 
     def fmu_start(self) -> FmuStart:
         """Name of the FMU that holds this scene, and the start values to bake in."""
-
-    def described(self, report: Report) -> dict[str, Any]:
-        """Plan, scene and validity of a report for its page, where no result file has them."""
 
 
 def open_scene(name: str) -> OpenedScene | OpenedDevice:
@@ -137,10 +134,6 @@ class OpenedScene:
 
         return fmu_start(self.scene, self.accuracy)
 
-    def described(self, report: Report) -> dict[str, Any]:
-        """See `Opened.described`: its result has them."""
-        return {}
-
 
 @frozen
 class OpenedDevice:
@@ -182,13 +175,16 @@ class OpenedDevice:
         """See `Opened.fmu_start`."""
         return self.scene.report.fmu_start(self.scene)
 
-    def described(self, report: Report) -> dict[str, Any]:
-        """See `Opened.described`."""
-        from .report_page import validity_rows
 
-        rows = [(case, *row) for case, number in report.validity for row in validity_rows([number])]
-        return {
-            "plan": self.plan_text(),
-            "scene": str(self.scene),
-            "validity": tuple(sorted(rows, key=lambda row: "OUT OF RANGE" not in row[2])),
-        }
+def described(opened: object, report: Report) -> dict[str, Any]:
+    """Plan, scene and validity of a report of a device; a result of a scene has them itself."""
+    if not isinstance(opened, OpenedDevice):
+        return {}
+    from .report_page import validity_rows
+
+    rows = [(case, *row) for case, one in report.validity for row in validity_rows([one])]
+    return {
+        "plan": opened.plan_text(),
+        "scene": str(opened.scene),
+        "validity": tuple(sorted(rows, key=lambda row: "OUT OF RANGE" not in row[2])),
+    }

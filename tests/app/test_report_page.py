@@ -11,7 +11,7 @@ import pytest
 
 from contactkit.app.output import Command, written_to
 from contactkit.app.report_page import report_page
-from contactkit.app.scenes import open_scene
+from contactkit.app.scenes import described, open_scene
 from contactkit.cli import main
 from contactkit.export.report import Report
 from contactkit.validity import ValidityNumber
@@ -204,7 +204,7 @@ def test_the_page_of_a_device_has_its_plan_validity_scene_and_sources(tmp_path):
     with written_to(tmp_path / "out", Command("run", "micromirror")) as folder:
         folder.path.mkdir(exist_ok=True)
         (folder.path / "signals.csv").write_text("t")
-        folder.keep(opened.name, report.text, report.scalars, **opened.described(report))
+        folder.keep(opened.name, report.text, report.scalars, **described(opened, report))
     text = report_page(tmp_path / "out")
     headings = re.findall("<h2>(.*?)</h2>", text)
     assert headings == [
