@@ -25,7 +25,7 @@ _RESULT = "result.npz"
 
 @frozen
 class PageSource:
-    """What a page is made of: a scene or a solved contact, its accuracy, its loads, its FMU."""
+    """Source of a page: a scene or a solved contact, with accuracy, loads and FMU."""
 
     name: str
     shown: Any

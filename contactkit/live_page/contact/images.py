@@ -25,7 +25,7 @@ COARSE = 250
 
 
 class Image(NamedTuple):
-    """Where a map lies among the bytes of the page, and what its levels stand for.
+    """Place of a map among the bytes of the page, and the values of its levels.
 
     A value is ``low + step*level``; the highest number of `bytes` bytes is a pixel without one.
     """

@@ -1,4 +1,4 @@
-"""Which maps of solved contacts a page shows, and the areas it outlines."""
+"""Maps of solved contacts that a page shows, and the areas it outlines."""
 
 from __future__ import annotations
 

@@ -129,6 +129,6 @@ def _is_known(name: str, numbers: dict[str, tuple[float, str]]) -> bool:
 
 
 def axis_of(result: ContactResult) -> dict[str, str]:
-    """What is imposed: its field, its name, its unit."""
+    """Imposed quantity: its field, its name, its unit."""
     name, _, unit = result.plan.scene.loading.quantity
     return {"name": name, "label": _IMPOSED.get(name, _label(name)), "unit": unit}

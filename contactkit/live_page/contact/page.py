@@ -29,7 +29,7 @@ _SCRIPTS = ("chart.js", "map.js", "contact.js")
 
 
 class PageOfContact(NamedTuple):
-    """What the scripts of a page read, and the bytes of its maps."""
+    """Data of the scripts of a page, and the bytes of its maps."""
 
     data: dict[str, Any]
     images: dict[str, bytes]

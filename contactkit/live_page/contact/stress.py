@@ -24,7 +24,7 @@ __all__ = ["SHOWN", "Place", "StressMap", "places_of", "stress_maps"]
 SHOWN = {name: LABELS[name] for name in ("von_mises", "tension", "sigma_xz")}
 """Measures that a page shows, by name, with their labels."""
 
-_MOST = 12  # planes: as many as are told apart on a slider
+_MOST = 12  # planes: as many as a slider of a phone sets one by one
 
 
 class Place(NamedTuple):

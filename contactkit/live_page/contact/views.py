@@ -35,7 +35,7 @@ _CLOSE = 64  # pixels along a side of the close-up, in which spots of some pixel
 
 
 class Views(NamedTuple):
-    """What the scripts read about maps, and the bytes of maps and of planes of stress."""
+    """Data of the scripts about maps, and the bytes of maps and of planes of stress."""
 
     views: list[dict[str, Any]]
     outlines: list[dict[str, str]]
