@@ -255,3 +255,29 @@ def test_contacts_that_are_not_alike_are_refused():
     others = [solved(ball(), ck.Accuracy(grid=n)) for n in (16, 20)]
     with pytest.raises(DescriptionError, match="the effects and the grid of the first"):
         live_page(others)
+
+
+def test_a_close_up_has_a_cell_for_each_pixel_around_the_maximum(monkeypatch):
+    monkeypatch.setattr(views, "_CELLS", (20,))
+    monkeypatch.setattr(views, "_CLOSE", 16)
+    page, result = read(rough(), accuracy=DRAFT, loads=2), solved(rough(), DRAFT)
+    window, close = page.data["views"]
+    assert (window["name"], close["name"]) == ("window", "close-up")
+    assert window["width"] == pytest.approx(8e-6)
+    assert close["width"] == close["height"] == pytest.approx(8e-6 / 3.0)
+    left, bottom = (round(close[one] / (8e-6 / 48)) for one in ("x", "y"))
+    taken = (slice(bottom, bottom + 16), slice(left, left + 16))
+    for name in ("pressure", "gap"):
+        values, half_a_step = page.map(name, view=1)
+        assert values == pytest.approx(result[name][taken], abs=half_a_step)
+    assert (page.flags("contact", view=1) == result.contact[taken]).all()
+    assert page.top("pressure", view=1) == page.top("pressure")
+    assert page.top("pressure", view=1)[0] == pytest.approx(result.max_pressure)
+
+
+def test_friction_is_kept_as_a_multiple_of_the_pressure():
+    page = read(ball(ck.FrictionTraction(coefficient=0.3)), accuracy=ck.Accuracy(grid=24), loads=1)
+    found = {one["name"]: one["images"][0][0] for one in page.data["views"][0]["surface"]["maps"]}
+    assert found["traction_x"]["start"] == found["pressure"]["start"]
+    assert page.map("traction_x")[0] == pytest.approx(0.3 * page.map("pressure")[0])
+    assert page.numbers()["friction_force"] == pytest.approx(0.3 * FORCE)
