@@ -20,6 +20,7 @@ import contactkit as ck
 from contactkit.app.scenes import open_scene
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.native.build import build_native
+from contactkit.live_page import mirror_page
 from contactkit.live_page.page import write_page
 from contactkit.models.injector.delays import (
     closing_delay,
@@ -29,6 +30,8 @@ from contactkit.models.injector.delays import (
     sticking_time,
 )
 from contactkit.models.library import bundled_device
+from contactkit.models.micromirror.release import humidity_limit, landing, release, smallest_reset
+from contactkit.models.micromirror.tip_film import adhesion, tip_law
 
 BROWSER = next(
     filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
@@ -248,3 +251,51 @@ def test_an_injector_that_never_opens_says_so(injector, tmp_path):
     assert "never opens within the pulse of 4 ms: the film holds it" in dom
     assert math.isnan(numbers(dom)["release_delay"])
     assert numbers(dom)["dry_release_delay"] > 0.0
+
+
+@pytest.fixture(scope="module")
+def micromirror(tmp_path_factory):
+    """The page with humidity and gap on its grid: four quantities take 15 s."""
+    with pytest.MonkeyPatch.context() as patch:
+        whole = mirror_page._grid
+        patch.setattr(
+            mirror_page,
+            "_grid",
+            lambda scene: tuple(one for one in whole(scene) if one.name in ("humidity", "gap")),
+        )
+        scene = bundled_device("micromirror")
+        path = write_page(scene, tmp_path_factory.mktemp("page") / "m.html")
+    path.write_text(path.read_text("utf-8").replace("</body>", PROBE), "utf-8")
+    return path
+
+
+def test_the_page_of_a_micromirror_shows_its_release(micromirror, tmp_path):
+    scene = bundled_device("micromirror")
+    dom = shown(micromirror, tmp_path)
+    mine, law = numbers(dom), tip_law(scene.tip, 0.5)
+    assert mine["free_time"] == pytest.approx(release(scene, law, 34.0), rel=1e-9)
+    assert mine["alone_time"] == pytest.approx(release(scene, law, None), rel=1e-9)
+    assert mine["smallest_pulse"] == pytest.approx(smallest_reset(scene, law).voltage, abs=0.06)
+    assert mine["humidity_limit"] == pytest.approx(100.0 * humidity_limit(scene), abs=0.7)
+    held = adhesion(scene.tip, 0.5)
+    assert mine["meniscus_force"] == pytest.approx(2.0 * held.meniscus_force, rel=1e-6)
+    assert mine["van_der_waals_force"] == pytest.approx(2.0 * held.solid_force, rel=1e-6)
+    assert mine["preload"] == pytest.approx(landing(scene).preload, rel=1e-6)
+    assert validity(dom)["Kelvin radius [m]"] == pytest.approx(held.kelvin_radius, rel=1e-6)
+    assert "validity: out of range: Kelvin radius" in dom
+
+
+def test_the_address_moves_the_micromirror_and_its_file(micromirror, tmp_path):
+    moved = "#humidity=0.65&gap=3.5e-10&loading_stiffness=1.3&electrode_gap=0.00000155&reset=29"
+    dom = shown(micromirror, tmp_path, moved)
+    path = tmp_path / "saved.toml"
+    path.write_text(pre(dom, "saved-toml"), "utf-8")
+    scene = open_scene(str(path)).scene
+    assert (scene.study.humidity, scene.loading.rest_gap) == (0.65, 3.5e-10)
+    assert scene.mirror.waveform.reset_voltage == -29.0
+    law = tip_law(scene.tip, 0.65)
+    mine = numbers(dom)
+    expected = release(scene, law, 29.0)
+    assert mine["free_time"] == pytest.approx(expected, rel=1e-9, nan_ok=True)
+    assert mine["smallest_pulse"] == pytest.approx(smallest_reset(scene, law).voltage, abs=0.2)
+    assert mine["adhesion"] == pytest.approx(2.0 * adhesion(scene.tip, 0.65).force, rel=5e-3)

@@ -135,12 +135,14 @@ class Chart {
       node("line", { x1: left, x2: width - right, y1: at, y2: at, stroke: tick === 0 ? "#888" : "#e4e4e4" }, this.svg);
       node("text", { x: left - 6, y: at + 4, "text-anchor": "end", ...small }, this.svg, written(tick));
     }
+    let free = -Infinity; // where the last label ends: those that would touch it are left out
     for (const tick of ticksOf(this.low / xFactor, this.high / xFactor, axis.isLog, width < 420 ? 4 : 7)) {
-      const at = x(tick * xFactor);
+      const at = x(tick * xFactor), label = axis.isLog ? quantity(tick, axis.unit, 3) : written(tick), half = 3.6 * label.length;
       node("line", { x1: at, x2: at, y1: height - bottom, y2: height - bottom + 5, stroke: "#888" }, this.svg);
+      if (at - half < free + 4) continue;
+      free = at + half;
       const edge = at > width - right - 14 ? "end" : "middle"; // whole at the edge of a phone
-      node("text", { x: edge === "end" ? width - 2 : at, y: height - bottom + 19, "text-anchor": edge, ...small }, this.svg,
-        axis.isLog ? quantity(tick, axis.unit, 3) : written(tick));
+      node("text", { x: edge === "end" ? width - 2 : at, y: height - bottom + 19, "text-anchor": edge, ...small }, this.svg, label);
     }
     node("text", { x: 4, y: 15, "font-size": 13.5, fill: "#1b1b1b", "font-weight": 600 }, this.svg, `${this.title} [${yUnit}]`);
     node("text", { x: width - right, y: height - 6, "text-anchor": "end", ...small }, this.svg,

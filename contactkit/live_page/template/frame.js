@@ -27,7 +27,8 @@ function showValidity(numbers, missing) {
   const outside = numbers.filter((one) => !(one.value >= (one.low ?? -Infinity) && one.value <= (one.high ?? Infinity)));
   by("verdict").textContent = outside.length
     ? `validity: out of range: ${outside.map((one) => one.name).join(", ")}`
-    : `validity: all ${numbers.length} numbers evaluated here are within their range`;
+    : `validity: ${["nothing is left to evaluate", "the number evaluated here is within its range"][numbers.length] ??
+      `all ${numbers.length} numbers evaluated here are within their range`}`;
   by("verdict").className = outside.length ? "bad" : "";
   by("validity").replaceChildren(
     ...numbers.map((one) => {
