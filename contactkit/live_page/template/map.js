@@ -40,7 +40,7 @@ class MapView {
     this.box = made("div", undefined, { class: "map" });
     this.canvas = made("canvas", undefined, { "aria-hidden": "true" });
     this.title = made("p", undefined, { class: "title" });
-    this.svg = node("svg", { role: "img", tabindex: 0 }, this.box);
+    this.svg = node("svg", { role: "img", tabindex: 0, "font-family": "system-ui, sans-serif" }, this.box);
     this.box.prepend(this.canvas);
     parent.append(this.title, this.box);
     const at = (event) => {
@@ -97,7 +97,9 @@ class MapView {
     context.imageSmoothingEnabled = false;
     context.drawImage(own, 0, h - ny * ch, nx * cw, ny * ch); // the last cells may reach beyond the window
     const fine = Math.min(1, Math.max(0.4, Math.min(cw, ch) / 3)); // of cells of a pixel or two, thin edges
-    for (const { bit, colour, thin } of outlines) {
+    // The smallest area on top: where edges coincide, that of the larger one is hidden for a short way.
+    const size = ({ bit }) => flags.reduce((sum, one) => sum + (one & bit ? 1 : 0), 0);
+    for (const { bit, colour, thin } of outlines.slice().sort((a, b) => size(b) - size(a))) {
       const path = this.edges(flags, bit, nx, ny, h);
       for (const [style, lineWidth] of thin ? [[colour, fine]] : [["#000000a0", 2.2 * fine], [colour, 1.1 * fine]]) {
         Object.assign(context, { strokeStyle: style, lineWidth });
