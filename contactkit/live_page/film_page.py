@@ -1,4 +1,4 @@
-"""What the scripts of the page of a film read: sliders, numbers of the kernel, tables, words."""
+"""Data of the page of a film: sliders, numbers of the kernel, tables, words."""
 
 from __future__ import annotations
 
@@ -173,7 +173,7 @@ def place_in(tables: dict[str, Any], path: str) -> list[str | int]:
 
 
 def held(table: LiquidTable | None, family: Family | str) -> list[str]:
-    """What moves with which error, and what does not move, in sentences."""
+    """Sentences on quantities that move, with their error, and on those that do not."""
     found = list[str]()
     if isinstance(family, Family):
         names = ", ".join(slider.label for slider in family.sliders)

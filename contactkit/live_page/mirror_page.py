@@ -1,4 +1,4 @@
-"""What the scripts of the page of a micromirror read: its tips and their water, its mirror.
+"""Data of the page of a micromirror: its tips and their water, its mirror.
 
 The tips are the model ``tip-contact`` of the native FMUs; mirror and electrodes are in
 ``kernel/mirror.c``. What moves are the assumptions of `models.micromirror.assumptions`. The water
@@ -57,6 +57,7 @@ PARAMETERS = (
 """Fields of a `Mirror` in the order of their numbers in ``kernel/mirror.c``."""
 
 _HUMIDITY, _HAMAKER = "study.humidity", "effects.van-der-waals-force.hamaker_constant"
+_ATTRACTION = _HAMAKER.replace(".", "_")  # name of its slider
 _OF_TIP = {"loading.stiffness": "k", "loading.mass": "m", "mirror.tips.damping": "c"}
 _RADIUS = "interface.upper.surface.radius"
 # What the tables over a grid hold. Steeper angles than 80 degrees keep the tip dry.
@@ -112,7 +113,10 @@ def mirror_data(
     tip = _tip(scene)
     family = _family(tip, accuracy, progress)
     grid = family.sliders if isinstance(family, Family) else ()
+    attraction = _hamaker(tip, family, accuracy)
     moved = [*((one, _TIP) for one in grid), *_assumed(scene)]
+    if attraction is None:
+        moved = [one for one in moved if one[0].name != _ATTRACTION]
     tables: dict[str, Any] = {"device": "micromirror", **unstructure(scene)}
     numbers = tip.numbers(scene, tip.film.tables)
     waveform, study = scene.mirror.waveform, scene.study
@@ -126,7 +130,7 @@ def mirror_data(
         "numbers": packed_numbers([*numbers, *_more(scene)]),
         "count": len(numbers),
         "family": family_data(family) if isinstance(family, Family) else None,
-        "hamaker": _hamaker(tip, family, accuracy),
+        "hamaker": attraction,
         "mirror": [float(value_at(scene.mirror, Accuracy(), path)) for path in PARAMETERS],
         "properties": [],
         "rules": [_kelvin(scene)],
@@ -195,39 +199,36 @@ def _kelvin(scene: MicromirrorScene) -> dict[str, Any]:
 
 def _family(tip: _Tip, accuracy: Accuracy, progress: Progress | None) -> Family | str:
     scene = tip.scene
-    made = Nodes(
+    return tabulated(_nodes(tip, scene, accuracy), _grid(scene), scene.loading.final_gap, progress)
+
+
+def _nodes(tip: _Tip, scene: MicromirrorScene, accuracy: Accuracy) -> Nodes:
+    return Nodes(
         scene,
         tip.film.tables,
         lambda other, make: _film(other, make, accuracy).tables,
         tip.numbers,
         _more,
     )
-    return tabulated(made, _grid(scene), scene.loading.final_gap, progress)
 
 
 def _hamaker(tip: _Tip, family: Family | str, accuracy: Accuracy) -> dict[str, Any] | None:
     """Runs of numbers that are proportional to the Hamaker constant: [first, count]."""
     effect = tip.scene.tip.effect(VanDerWaalsForce)
-    if effect is None or not isinstance(family, Family):
+    if effect is None:
         return None
     double = changed(tip.scene, None, {_HAMAKER: 2.0 * effect.hamaker_constant}).scene
     plain = np.array(tip.numbers(tip.scene, tip.film.tables))
     other = np.array(tip.numbers(double, _film(double, tabulate).tables))
-    nodes = Nodes(
-        double,
-        tip.film.tables,
-        lambda scene, make: _film(scene, make, accuracy).tables,
-        tip.numbers,
-        _more,
-    )
-    grid = nodes.numbers(double)
-    if len(plain) != len(other) or len(grid) != len(family.base):
+    if len(plain) != len(other):
         return None
-    return {
-        "name": "effects_van-der-waals-force_hamaker_constant",
-        "scene": _runs(0.5 * other == plain, plain),
-        "family": _runs(0.5 * grid == family.base, family.base),
-    }
+    found = {"name": _ATTRACTION, "scene": _runs(0.5 * other == plain, plain), "family": []}
+    if isinstance(family, Family):
+        grid = _nodes(tip, double, accuracy).numbers(double)
+        if len(grid) != len(family.base):
+            return None
+        found["family"] = _runs(0.5 * grid == family.base, family.base)
+    return found
 
 
 def _runs(doubled: Any, of: Any) -> list[list[int]]:

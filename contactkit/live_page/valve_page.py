@@ -1,4 +1,4 @@
-"""What the scripts of the page of an injector read: its film, its valve, what is assumed of both.
+"""Data of the page of an injector: its film, its valve, and what is assumed of both.
 
 Film and valve are the models ``stiction-mass`` and ``valve-drive`` of the native FMUs, coupled in
 the page by ``kernel/valve.c``. What moves are the assumptions of `models.injector.assumptions`,
@@ -177,7 +177,7 @@ def _is_remembered(scene: InjectorScene) -> bool:
 
 
 def _tensions(scene: InjectorScene) -> Iterator[_Moved]:
-    """Absolute pressures around the face and in the cavity, and the tension that the oil bears."""
+    """Absolute pressures around the face and in the cavity, and the tension of inception."""
     limit = scene.tension_limit
     if limit is None or not _is_remembered(scene):
         return
@@ -185,7 +185,14 @@ def _tensions(scene: InjectorScene) -> Iterator[_Moved]:
     bears = limit.tension - around
     rows = (
         ("ambient", "pressure of the oil around the face", around, *_PRESSURES, "log"),
-        ("tension", "tension that the oil bears, absolute", bears, 0.0, 30.0 * bar, "linear"),
+        (
+            "tension",
+            "tension at which the oil cavitates, absolute",
+            bears,
+            0.0,
+            30.0 * bar,
+            "linear",
+        ),
         ("cavity", "pressure in the cavity", inside, *_CAVITIES, "linear"),
     )
     for name, label, value, low, high, scale in rows:

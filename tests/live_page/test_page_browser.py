@@ -246,7 +246,7 @@ def test_the_address_moves_the_injector_and_its_file(injector, tmp_path):
     assert found == pytest.approx(delay(scene, scene.temperature), rel=1e-4)
 
 
-def test_an_injector_that_never_opens_says_so(injector, tmp_path):
+def test_an_injector_that_never_opens(injector, tmp_path):
     dom = shown(injector, tmp_path, "#ambient=2000000")
     assert "never opens within the pulse of 4 ms: the film holds it" in dom
     assert math.isnan(numbers(dom)["release_delay"])

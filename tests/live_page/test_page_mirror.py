@@ -144,7 +144,7 @@ def test_each_slider_is_the_field_of_its_scene(mirror, data, path):
 
 @pytest.mark.slow
 @needs_runtime
-def test_a_pulse_that_reaches_the_electrode_is_said(mirror, data):
+def test_a_pulse_that_reaches_the_electrode_is_refused(mirror, data):
     with pytest.raises(ValueError, match="the plate meets the electrode"):
         mirror.flight(data, 79.0)
     weak = [("mirror", mirror_page.PARAMETERS.index("waveform.bias_voltage"), -1.0)]

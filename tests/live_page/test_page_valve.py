@@ -11,11 +11,13 @@ from attrs import evolve
 from wasm import Valve, needs_runtime
 
 from contactkit.accuracy import Accuracy
+from contactkit.liquids.liquid import Liquid
 from contactkit.live_page.page import page_data
 from contactkit.live_page.valve_page import drive_numbers
 from contactkit.models.injector.assumptions import RANGES
 from contactkit.models.injector.delays import delay, dry_delay
 from contactkit.models.library import bundled_device
+from contactkit.separation.effects.viscous import TensionLimit, ViscousForce
 from contactkit.studies.paths import axes, changed
 
 INJECTOR = bundled_device("fuel-injector")
@@ -53,6 +55,30 @@ def test_tensions_are_those_of_the_scene(data):
     assert start["ambient"] == limit.ambient_pressure
     assert start["ambient"] + start["tension"] == pytest.approx(limit.tension, rel=1e-14)
     assert start["cavity"] == pytest.approx(limit.pressure_in_cavity, abs=1e-9)
+
+
+PLAIN = Liquid(name="oil", viscosity=0.1, density=870.0)
+CUT = TensionLimit(strength=1e6, cavity="truncated")
+
+
+@pytest.mark.slow
+@needs_runtime
+@pytest.mark.parametrize("limit", [None, CUT], ids=["never cavitates", "truncated"])
+def test_an_injector_with_a_plain_oil(limit):
+    """No law of the temperature, no cavity: the sliders that are left, and the same delay."""
+    meniscus = evolve(INJECTOR.interface.meniscus, liquid=PLAIN)
+    scene = evolve(
+        INJECTOR,
+        interface=evolve(INJECTOR.interface, meniscus=meniscus),
+        effects=(ViscousForce(), *filter(None, (limit,))),
+    )
+    found = page_data(scene)
+    names = {one["name"] for one in found["sliders"]}
+    assert "viscosity" in names
+    assert not {"temperature", "ambient", "tension", "cavity"} & names
+    assert (found["limit"], found["pressures"], found["temperatures"]) == (-1, (), ())
+    expected = delay(scene, scene.temperature, rtol=1e-8)
+    assert Valve(found).run()[0] == pytest.approx(expected, rel=WITHIN, nan_ok=True)
 
 
 @pytest.mark.slow

@@ -127,9 +127,10 @@ class Valve(Wasm):
         return self._steps(until_release)
 
     def _liquid(self, now):
-        kelvin, liquid = now["temperature"], LiquidTable(**self.data["liquid"])
-        if kelvin == self.start["temperature"]:
+        kelvin = now.get("temperature")
+        if kelvin == self.start.get("temperature"):
             return []
+        liquid = LiquidTable(**self.data["liquid"])
         ratio = {
             name: liquid.at(name, kelvin) / liquid.at(name, self.start["temperature"])
             for name in liquid.logs
@@ -140,6 +141,8 @@ class Valve(Wasm):
 
     def _tensions(self, now):
         references = self.data["references"]
+        if self.data["limit"] < 0:
+            return []
         inside = max(now["cavity"], -now["tension"])
         return [
             (references["dp_inception"], now["ambient"] + now["tension"]),

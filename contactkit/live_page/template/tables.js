@@ -67,7 +67,7 @@ function worstOf(rules, logs, count, index, path, liquid, strength) {
   let scale = 1, worst = largest ? 0 : Infinity;
   for (const name in rule.liquid) scale *= (liquid[name] ?? 1) ** rule.liquid[name];
   for (const [gap, speed] of path) {
-    if (rule.opening_only && speed <= 0) continue;
+    if ((rule.opening_only && speed <= 0) || (rule.speed_power < 0 && speed === 0)) continue;
     let value = between(logs, at, count, gap) * scale * Math.abs(speed) ** rule.speed_power;
     if (rule.is_bounded) value = Math.min(value, strength * between(logs, at + count, count, gap));
     worst = largest ? Math.max(worst, value) : Math.min(worst, value);

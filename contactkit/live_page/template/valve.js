@@ -77,7 +77,7 @@ function valveNow() {
   const { logs, liquid } = beginValve(), rows = [], { pulse, cycle } = data.times;
   const found = runValve(cycle, false, rows);
   const opened = found.release >= 0 && found.release <= pulse;
-  const drop = (now) => (data.limit < 0 ? 1 : now.ambient + now.tension);
+  const drop = (now) => (data.limit < 0 ? now.strength ?? 1 : now.ambient + now.tension);
   const path = rows.filter((row) => row[0] <= pulse);
   const result = {
     rows, how: opened ? "released" : "never",
