@@ -1,6 +1,8 @@
-"""Live pages: a scene as one HTML file that runs the C kernel in the browser.
+"""Live pages: a scene as one HTML file that moves in the browser.
 
 page         `write_page`: the file, and what its scripts read.
+assembly     One HTML file of parts, scripts and data.
+contact      Pages of solved contacts: maps over load and depth.
 film_page    Data of the page of a film; what those of the devices share with it.
 valve_page   Data of the page of the fuel injector.
 mirror_page  Data of the page of the micromirror.

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import base64
-import gzip
 import math
-import re
 import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -23,6 +20,7 @@ from ..separation.effects.base import FilmLimit, FilmStatus, SeparationForce
 from ..separation.plan import Plan, plan
 from ..separation.simulate import simulate
 from ..separation.validity import path_of
+from .assembly import file_name, packed, readable
 from .family import Family, family_of
 from .scene import KernelScene, check_scene, kernel_scene
 from .sliders import Slider, family_sliders, sliders_of
@@ -31,14 +29,12 @@ from .validity import POINTS, Rules, checked, logs_of, rules_of
 __all__ = [
     "Progress",
     "family_data",
-    "file_name",
     "film_data",
     "fmu_command",
     "force_parts",
     "given_family",
     "held",
     "kernel_data",
-    "packed",
     "packed_numbers",
     "place_in",
     "slider_data",
@@ -147,11 +143,6 @@ def given_family(
     return family_of(kernel, sliders, accuracy, rules, span, progress)
 
 
-def file_name(title: str) -> str:
-    """Name of a file for a scene of a title."""
-    return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "film"
-
-
 def _loading(scene: SeparationScene) -> dict[str, Any]:
     loading = scene.loading
     gaps = [loading.initial_gap, loading.final_gap]
@@ -179,17 +170,6 @@ def place_in(tables: dict[str, Any], path: str) -> list[str | int]:
         if "surface" not in body:
             rest.remove("surface")
     return [first, *rest]
-
-
-def readable(unit: str) -> str:
-    """A unit as it is printed: um is \u00b5m, m3 is m\u00b3."""
-    text = (
-        re.sub(r"\bu(?=[a-zA-Z])", "\u00b5", unit)
-        .replace("ohm", "\u03a9")
-        .replace("deg", "\u00b0")
-        .replace(".", "\u00b7")
-    )
-    return "" if text == "-" else text.replace("2", "\u00b2").replace("3", "\u00b3")
 
 
 def held(table: LiquidTable | None, family: Family | str) -> list[str]:
@@ -280,11 +260,6 @@ def words(made: Plan) -> dict[str, Any]:
         "on": [f"{effect.name}: {effect.summary}" for effect in scene.effects],
         "off": [f"{kind.name}: {kind.summary}" for kind in off],
     }
-
-
-def packed(content: bytes) -> str:
-    """Bytes as text, compressed; the same every time."""
-    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
 
 
 def packed_numbers(numbers: Sequence[float]) -> str:

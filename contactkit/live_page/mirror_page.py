@@ -31,11 +31,11 @@ from ..models.micromirror.tip_film import adhesion, condensate_validity, tip_law
 from ..separation.effects.adhesion import VanDerWaalsForce
 from ..separation.effects.base import FilmStatus
 from ..studies.paths import axes, changed, value_at
+from .assembly import file_name
 from .family import Family, Nodes, tabulated
 from .film_page import (
     Progress,
     family_data,
-    file_name,
     fmu_command,
     force_parts,
     held,

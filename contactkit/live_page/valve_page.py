@@ -29,10 +29,10 @@ from ..separation.effects.viscous import TensionLimit
 from ..separation.plan import Plan, plan
 from ..studies.paths import axes, value_at
 from ..units import bar
+from .assembly import file_name
 from .family import Family
 from .film_page import (
     Progress,
-    file_name,
     fmu_command,
     given_family,
     held,

@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..analyses.subsurface import MEASURES, MeasureName
+from ..analyses.subsurface import LABELS, MEASURES, MeasureName
 from ..contact.effects.stress import SubsurfaceStress
 from ..contact.result import ContactResult
 from ..errors import DescriptionError, NotSimulatedError, nearest
 from .axis_units import axis_label, axis_unit, readable
 from .maps import extent, hide_holes, map_names, place
-from .stress import LABELS
 from .style import STYLE, mpl
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..analyses.subsurface import MEASURES, MeasureName
+from ..analyses.subsurface import LABELS, MEASURES, MeasureName
 from ..contact.effects.stress import StressPart, SubsurfaceStress
 from ..contact.result import ContactResult
 from ..errors import DescriptionError
@@ -29,14 +29,6 @@ _FAINT = 0.1
 _MARK = "#d55e00"
 _EQUAL = 1.005  # of the largest stress drawn: what exceeds it by less reads the same
 _NAMED = 0.07  # of the depth shown: a thinner layer has no room for a line of text
-LABELS = {
-    "von_mises": "von Mises stress",
-    "sqrt_j2": "square root of J2",
-    "tension": "largest principal stress",
-    "tresca": "maximum shear stress",
-    "sigma_xz": "shear stress |xz|",
-}
-"""Label of each measure."""
 
 
 class Scale(NamedTuple):

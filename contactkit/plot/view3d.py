@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ..analyses.subsurface import MEASURES, MeasureName
+from ..analyses.subsurface import LABELS, MEASURES, MeasureName
 from ..contact.effects.stress import SubsurfaceStress
 from ..contact.result import ContactResult
 from ..errors import DescriptionError, NotSimulatedError, nearest
@@ -17,7 +17,6 @@ from ..extras import require
 from ..files.scenes import write_whole
 from .axis_units import axis_label, axis_unit, readable
 from .maps import map_names
-from .stress import LABELS
 from .style import mpl
 
 if TYPE_CHECKING:

@@ -6,9 +6,11 @@ const SVG = "http://www.w3.org/2000/svg";
 
 // Factor and name of the unit in which a size reads best.
 function readable(size, unit) {
+  if (unit === "-") return [1, ""];
   if (!(size > 0) || unit === "" || unit === "m/s") return [1, unit];
-  const found = PREFIXES.find(([factor]) => size >= 0.9999 * factor) ?? PREFIXES.at(-1);
-  return [found[0], found[1] + unit];
+  const power = Number(/^m([23])$/.exec(unit)?.[1] ?? 1); // an area from 0.1 of its unit on
+  const found = PREFIXES.find(([factor]) => size >= 0.9999 * factor ** power * 0.1 ** (power - 1)) ?? PREFIXES.at(-1);
+  return [found[0] ** power, found[1] + unit.replace("2", "\u00b2").replace("3", "\u00b3")];
 }
 
 function written(value, digits = 4) {
@@ -69,10 +71,12 @@ function cross(x, y, colour, parent) {
 }
 
 // One chart: `series` of {label, column, colour, dashes} of one unit over a column of the rows. A clipped
-// series does not widen the axis; `none` says what no value means, which is marked at the top.
+// series does not widen the axis; `none` says what no value means, which is marked at the top. A series
+// may have a `band`, the columns of its bounds, and `dots` at its rows. `range` of values is shown at
+// least, and `ratio` is height over width.
 class Chart {
-  constructor(parent, { unit, title, series, onPoint }) {
-    Object.assign(this, { unit, title, series });
+  constructor(parent, { unit, title, series, range = [0, 0], ratio = 0.72, onPoint }) {
+    Object.assign(this, { unit, title, series, range, ratio });
     this.box = document.createElement("figure");
     this.box.className = "chart";
     this.svg = node("svg", { role: "img", "aria-label": title }, this.box);
@@ -102,7 +106,7 @@ class Chart {
 
   // `axis` is {column, unit, label, isLog}, with a `mark` to be drawn on it and a `top` of the values.
   draw(rows, axis) {
-    const width = Math.max(this.box.clientWidth, 300), height = Math.round(Math.min(0.72 * width, 360));
+    const width = Math.max(this.box.clientWidth, 300), height = Math.round(Math.min(this.ratio * width, 360));
     const left = 58, right = 12, top = 26, bottom = 44;
     Object.assign(this, { rows, axis, width, left, right, top, height, bottom });
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
@@ -112,13 +116,14 @@ class Chart {
     if (shown.length < 2) return;
     const xs = shown.map((row) => row[axis.column]);
     this.low = xs[0], this.high = xs.at(-1);
-    let bottomValue = 0, topValue = axis.top ?? 0;
-    for (const { column, clipped } of this.series)
-      for (const row of clipped ? [] : shown) {
-        if (!Number.isFinite(row[column])) continue;
-        bottomValue = Math.min(bottomValue, row[column]);
-        topValue = Math.max(topValue, row[column]);
-      }
+    let bottomValue = this.range[0], topValue = axis.top ?? this.range[1];
+    for (const { column, band = [], clipped } of this.series)
+      for (const row of clipped ? [] : shown)
+        for (const value of [column, ...band].map((one) => row[one])) {
+          if (!Number.isFinite(value)) continue;
+          bottomValue = Math.min(bottomValue, value);
+          topValue = Math.max(topValue, value);
+        }
     if (topValue === bottomValue) topValue = bottomValue + 1;
     const [yFactor, yUnit] = readable(Math.max(topValue, -bottomValue), this.unit);
     const [xFactor, xUnit] = axis.isLog ? [1, axis.unit] : readable(this.high, axis.unit);
@@ -146,8 +151,12 @@ class Chart {
     node("rect", { x: left, y: top - 4, width: width - left - right, height: height - top - bottom + 5 }, clip);
     if (axis.mark > this.low && axis.mark < this.high)
       node("line", { x1: x(axis.mark), x2: x(axis.mark), y1: top, y2: height - bottom, stroke: "#888", "stroke-width": 1.5, "stroke-dasharray": "4 3" }, this.svg);
-    this.series.forEach(({ column, colour, dashes, none }, number) => {
-      const path = pathOf(shown, (row) => x(row[axis.column]), (row) => y(row[column]));
+    const along = (rows, column) => pathOf(rows, (row) => x(row[axis.column]), (row) => y(row[column]));
+    for (const { band, colour } of this.series)
+      if (band) node("path", { d: `${along(shown, band[0])}${along([...shown].reverse(), band[1]).replace("M", "L")}Z`, fill: colour, "fill-opacity": 0.16 }, this.svg);
+    this.series.forEach(({ column, colour, dashes, none, dots }, number) => {
+      const path = along(shown, column);
+      for (const row of dots ? shown : []) node("circle", { cx: x(row[axis.column]), cy: y(row[column]), r: 3, fill: colour }, this.svg);
       node("path", { d: path, fill: "none", stroke: colour, "stroke-width": 2, "stroke-dasharray": dashes, "stroke-linejoin": "round", "clip-path": `url(#${clip.id})` }, this.svg);
       for (const row of none ? shown : [])
         if (!Number.isFinite(row[column])) cross(x(row[axis.column]), top + 4 + 11 * number, colour, this.svg);

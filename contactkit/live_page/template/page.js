@@ -8,19 +8,10 @@
 //   isLog       whether the axis is logarithmic unless the reader chose; a view without it has no choice
 //   written     changes the scene that is saved, where fields follow several sliders; if it is there
 
-const data = JSON.parse(document.getElementById("data").textContent);
-const by = (id) => document.getElementById(id);
 const column = (name) => view.names.indexOf(name);
 const start = Object.fromEntries(data.sliders.map((s) => [s.name, s.value]));
 const values = { ...start };
 let view, shown, charts, logarithmic = null;
-
-function made(tag, text, attributes = {}) {
-  const found = document.createElement(tag);
-  if (text !== undefined) found.textContent = text;
-  for (const key in attributes) found.setAttribute(key, attributes[key]);
-  return found;
-}
 
 // Sliders --------------------------------------------------------------------------------------
 
@@ -80,44 +71,17 @@ function makeSliders() {
 
 // What is shown --------------------------------------------------------------------------------
 
-function row(label, small, text, attributes) {
-  const line = made("tr"), cell = made("td", label);
-  if (small) cell.append(made("span", small, { class: "small" }));
-  line.append(cell, made("td", text, { class: "number", ...attributes }));
-  return line;
-}
-
-function bounds(one) {
-  if (one.low === null) return `at most ${written(one.high, 3)}`;
-  return one.high === null ? `at least ${written(one.low, 3)}` : `${written(one.low, 3)} to ${written(one.high, 3)}`;
-}
-
 function show() {
   view.draw();
   by("status").textContent = view.outcome();
   by("status").className = view.isFine() ? "" : "bad";
   showResults();
-  showValidity();
+  showValidity(shown.validity, data.missing);
 }
 
 function showResults() {
   by("results").replaceChildren(...view.results().map(([label, name, value, unit, none]) =>
     row(label, "", none && !Number.isFinite(value) ? none : quantity(value, unit), { id: `n-${name}`, "data-value": value })));
-}
-
-function showValidity() {
-  const outside = shown.validity.filter((one) => !(one.value >= (one.low ?? -Infinity) && one.value <= (one.high ?? Infinity)));
-  by("verdict").textContent = outside.length
-    ? `validity: out of range: ${outside.map((one) => one.name).join(", ")}`
-    : `validity: ${["nothing is left to evaluate", "the number evaluated here is within its range"][shown.validity.length] ??
-      `all ${shown.validity.length} numbers evaluated here are within their range`}`;
-  by("verdict").className = outside.length ? "bad" : "";
-  by("validity").replaceChildren(
-    ...shown.validity.map((one) => {
-      const bad = outside.includes(one) ? { class: "number bad" } : {};
-      return row(one.name, `${bounds(one)}; ${one.detail}`, (bad.class ? "\u2717 " : "\u2713 ") + written(one.value, 3), { "data-value": one.value, "data-number": one.name, ...bad });
-    }),
-    ...Object.entries(data.missing).map(([name, why]) => row(name, `not evaluated: ${why}`, "-", {})));
 }
 
 // What the kernel says, in the words of the sliders.
@@ -166,27 +130,6 @@ function readAddress() {
     const s = data.sliders.find((one) => one.name === name), value = Number(text);
     if (s && Number.isFinite(value)) values[name] = Math.min(Math.max(value, s.low), s.high);
   }
-}
-
-function save(name, content) {
-  const link = made("a", undefined, { download: name, href: URL.createObjectURL(new Blob([content])) });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-}
-
-const isTable = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
-const isTables = (value) => Array.isArray(value) && value.length > 0 && value.every(isTable);
-
-// Tables of TOML: first what is plain, then the tables below.
-function toml(table, path = []) {
-  const lines = [], below = [];
-  for (const [key, value] of Object.entries(table)) {
-    const at = [...path, /^[\w-]+$/.test(key) ? key : JSON.stringify(key)];
-    if (isTables(value)) for (const one of value) below.push(`\n[[${at.join(".")}]]`, ...toml(one, at));
-    else if (isTable(value)) below.push(`\n[${at.join(".")}]`, ...toml(value, at));
-    else lines.push(`${at.at(-1)} = ${JSON.stringify(value)}`);
-  }
-  return [...lines, ...below];
 }
 
 function sceneNow() {
@@ -243,8 +186,7 @@ async function main() {
   if (!globalThis.DecompressionStream || !globalThis.WebAssembly)
     throw new Error("this browser has no WebAssembly or DecompressionStream: take one of 2023 or later");
   await view.prepare();
-  data.on.forEach((text) => by("on").append(made("li", text)));
-  data.off.forEach((text) => by("off").append(made("li", text)));
+  showEffects();
   charts = view.makeCharts();
   readAddress();
   makeSliders();
@@ -262,8 +204,5 @@ async function main() {
 
 function run(its) {
   view = its;
-  main().catch((error) => {
-    by("status").textContent = error.message;
-    by("status").className = "bad";
-  });
+  main().catch(failed);
 }

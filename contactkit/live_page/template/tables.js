@@ -1,12 +1,6 @@
 // Numbers that the kernel is given, or that are read off tables: each as a function of contactkit of
 // the same name in Python, which states the error of the tables.
 
-async function unpacked(text) {
-  const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
-}
-
 // family.py: numbers of the kernel, and of validity, at values of the geometry ------------------
 
 function placeOf(slider, value) {
