@@ -89,8 +89,9 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
         )
         return (
             f'<figure class="live"><iframe src="{alone}" title="{title}" loading="lazy"></iframe>'
-            f'<figcaption><a class="alone" href="{alone}">{title}: alone, with all curves and '
-            f'numbers</a> · <a href="{scene}" download>the scene</a></figcaption></figure>'
+            f'<figcaption><a class="alone" href="{alone}">Open alone</a>, with all '
+            f'curves, numbers, validity and files · <a href="{scene}" download>Scene</a>'
+            "</figcaption></figure>"
         )
 
     return LINK.sub(frame, markdown)

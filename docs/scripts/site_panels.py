@@ -7,7 +7,9 @@ between two of them. What cannot be cut so stays whole.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +17,8 @@ from PIL import Image
 
 LEAST = 230  # pixels of a panel: smaller ones would be enlarged, and blurred
 BAR = 0.22  # an upright box narrower than this over its height is a colour bar
+TITLE = 8  # pixels: a title is higher, and stands closer to its frame
+WORDS = 20  # pixels: words of a label are closer than that
 GUTTER = 5  # pixels: letters of a label are closer than that
 
 
@@ -81,13 +85,23 @@ def frames_of(pixels: np.ndarray) -> list[Box]:
 
 
 def rows_of(ink: np.ndarray, frames: list[Box]) -> list[Box]:
-    """The picture cut between frames that lie above each other."""
-    width = ink.shape[1]
-    blank = [(top, bottom) for top, bottom in spans(~ink.any(axis=1)) if bottom - top >= GUTTER]
-    return [
-        Box(0, top, width, bottom)
-        for top, bottom in _cut(blank, [(box.top, box.bottom) for box in frames], ink.shape[0])
-    ]
+    """The picture cut between frames that lie above each other.
+
+    What stands between two rows is the label of the upper one, then perhaps a title of the lower.
+    """
+    if not frames:
+        return []
+    height, width = ink.shape
+    filled = ink.any(axis=1)
+    has_titles = filled[: min(box.top for box in frames) - TITLE].any()
+    gaps = [gap for gap in spans(~filled) if gap[1] - gap[0] >= 2]
+
+    def last(gaps: list[tuple[int, int]], top: int) -> tuple[int, int]:
+        above = [gap for gap in gaps if gap[1] < top - TITLE] if has_titles else []
+        return (above or gaps)[-1]
+
+    ends = _cut(gaps, [(box.top, box.bottom) for box in frames], height, last)
+    return [Box(0, top, width, bottom) for top, bottom in ends]
 
 
 def columns_of(ink: np.ndarray, frames: list[Box], row: Box) -> list[Box]:
@@ -100,13 +114,17 @@ def columns_of(ink: np.ndarray, frames: list[Box], row: Box) -> list[Box]:
         return [row]
     filled = ink[row.top : row.bottom].any(axis=1)
     gaps = [gap for gap in spans(~filled) if gap[1] - gap[0] >= GUTTER]
-    gaps.sort(key=lambda gap: gap[0] - gap[1])  # a legend stands further off than its own lines
     middles = [row.top + (first + last) // 2 for first, last in gaps]
     title = [at for at in middles if row.top < at < min(box.top for box in inside)]
-    legend = [at for at in middles if max(box.bottom for box in inside) < at < row.bottom]
+    below = [at for at in middles if at > max(box.bottom for box in inside)]
+    likely = _legend(ink, inside, [*below, row.bottom])
+    legend = sorted(
+        below, key=lambda at: -(gaps[middles.index(at)][1] - gaps[middles.index(at)][0])
+    )
     beside = [(box.left, box.right) for box in inside]
     best: list[Box] = []
     for top, bottom in (
+        *((row.top, at) for at in likely),
         (row.top, row.bottom),
         *((row.top, at) for at in legend),
         *((at, row.bottom) for at in title),
@@ -123,17 +141,44 @@ def columns_of(ink: np.ndarray, frames: list[Box], row: Box) -> list[Box]:
     return best or [row]
 
 
+def _legend(ink: np.ndarray, frames: list[Box], ends: list[int]) -> list[int]:
+    """Where a legend begins below the labels of the axes, each of which is in the middle of one."""
+    for top, bottom in reversed(list(pairwise(ends))):
+        filled = ink[top:bottom].any(axis=0)
+        words = spans(filled)
+        blocks = words[:1]
+        for first, last in words[1:]:
+            if first - blocks[-1][1] < WORDS:
+                blocks[-1] = (blocks[-1][0], last)
+            else:
+                blocks.append((first, last))
+        middles = [(first + last) / 2 for first, last in blocks]
+        if middles and all(
+            any(abs(at - (box.left + box.right) / 2) < 0.1 * box.width for box in frames)
+            for at in middles
+        ):
+            return [bottom] if ink[bottom : ends[-1]].any() else []
+    return []
+
+
+def _widest(gaps: list[tuple[int, int]], _: int) -> tuple[int, int]:
+    return max(gaps, key=lambda gap: gap[1] - gap[0])
+
+
 def _cut(
-    blank: list[tuple[int, int]], frames: list[tuple[int, int]], end: int
+    blank: list[tuple[int, int]],
+    frames: list[tuple[int, int]],
+    end: int,
+    choose: Callable[[list[tuple[int, int]], int], tuple[int, int]] = _widest,
 ) -> list[tuple[int, int]]:
-    """Cut 0 to end in the widest gap between each two frames that do not overlap."""
+    """Cut 0 to end in a gap between each two frames that do not overlap."""
     cuts = [0]
     reached = None
     for first, last in sorted(frames):
         if reached is not None and first >= reached:
             between = [gap for gap in blank if gap[0] >= reached and gap[1] <= first]
             if between:
-                start, stop = max(between, key=lambda gap: gap[1] - gap[0])
+                start, stop = choose(between, first)
                 cuts.append((start + stop) // 2)
         reached = max(reached or 0, last)
     return list(zip(cuts, [*cuts[1:], end], strict=True))

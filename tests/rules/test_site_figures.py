@@ -84,7 +84,7 @@ def test_the_answers_beside_live_pages_are_those_of_their_scenes():
         warnings.simplefilter("ignore", ck.ValidityWarning)
         sphere, film = (
             ck.simulate(ck.plan(ck.load_scene(DOCS / "live" / f"{name}.toml")))
-            for name in ("humid-sphere", "oil-film")
+            for name in ("humid-sphere", "spool")
         )
     started = (DOCS / "getting-started.md").read_text("utf-8")
     force, gap = re.search(
