@@ -17,7 +17,7 @@ from PIL import Image
 
 LEAST = 230  # pixels of a panel: smaller ones would be enlarged, and blurred
 BAR = 0.22  # an upright box narrower than this over its height is a colour bar
-TITLE = 8  # pixels: a title is higher, and stands closer to its frame
+TITLE = 8  # pixels: a title is higher, and the uppermost number of an axis is not
 WORDS = 20  # pixels: words of a label are closer than that
 GUTTER = 5  # pixels: letters of a label are closer than that
 
@@ -87,7 +87,8 @@ def frames_of(pixels: np.ndarray) -> list[Box]:
 def rows_of(ink: np.ndarray, frames: list[Box]) -> list[Box]:
     """The picture cut between frames that lie above each other.
 
-    What stands between two rows is the label of the upper one, then perhaps a title of the lower.
+    What stands between two rows is the label of the upper one, then perhaps a title of the lower,
+    which is nearer to its frame.
     """
     if not frames:
         return []
@@ -96,11 +97,10 @@ def rows_of(ink: np.ndarray, frames: list[Box]) -> list[Box]:
     has_titles = filled[: min(box.top for box in frames) - TITLE].any()
     gaps = [gap for gap in spans(~filled) if gap[1] - gap[0] >= 2]
 
-    def last(gaps: list[tuple[int, int]], top: int) -> tuple[int, int]:
-        above = [gap for gap in gaps if gap[1] < top - TITLE] if has_titles else []
-        return (above or gaps)[-1]
+    def between_rows(gaps: list[tuple[int, int]]) -> tuple[int, int]:
+        return _widest(gaps[-2:]) if has_titles else gaps[-1]
 
-    ends = _cut(gaps, [(box.top, box.bottom) for box in frames], height, last)
+    ends = _cut(gaps, [(box.top, box.bottom) for box in frames], height, between_rows)
     return [Box(0, top, width, bottom) for top, bottom in ends]
 
 
@@ -161,7 +161,7 @@ def _legend(ink: np.ndarray, frames: list[Box], ends: list[int]) -> list[int]:
     return []
 
 
-def _widest(gaps: list[tuple[int, int]], _: int) -> tuple[int, int]:
+def _widest(gaps: list[tuple[int, int]]) -> tuple[int, int]:
     return max(gaps, key=lambda gap: gap[1] - gap[0])
 
 
@@ -169,7 +169,7 @@ def _cut(
     blank: list[tuple[int, int]],
     frames: list[tuple[int, int]],
     end: int,
-    choose: Callable[[list[tuple[int, int]], int], tuple[int, int]] = _widest,
+    choose: Callable[[list[tuple[int, int]]], tuple[int, int]] = _widest,
 ) -> list[tuple[int, int]]:
     """Cut 0 to end in a gap between each two frames that do not overlap."""
     cuts = [0]
@@ -178,7 +178,7 @@ def _cut(
         if reached is not None and first >= reached:
             between = [gap for gap in blank if gap[0] >= reached and gap[1] <= first]
             if between:
-                start, stop = choose(between, first)
+                start, stop = choose(between)
                 cuts.append((start + stop) // 2)
         reached = max(reached or 0, last)
     return list(zip(cuts, [*cuts[1:], end], strict=True))
