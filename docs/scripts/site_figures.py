@@ -60,7 +60,7 @@ def rows_of(table: str) -> list[tuple[str, str, str]]:
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add a thumbnail of each page that an index lists and that has a figure."""
-    for index in DOCS.glob("*/index.md"):
+    for index in DOCS.rglob("index.md"):
         for table in TABLE.findall(index.read_text("utf-8")):
             for _, page, _ in rows_of(table):
                 picture = figure_of(index.parent / page)
@@ -97,7 +97,7 @@ def cards(table: str, folder: Path) -> str:
 def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
     """Cards in place of the tables of an index."""
     path = DOCS / page.file.src_uri
-    if path.name != "index.md" or path.parent == DOCS:
+    if path.name != "index.md":
         return markdown
     return TABLE.sub(lambda match: cards(match[0], path.parent), markdown)
 
