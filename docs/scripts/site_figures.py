@@ -64,9 +64,9 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
         for table in TABLE.findall(index.read_text("utf-8")):
             for _, page, _ in rows_of(table):
                 picture = figure_of(index.parent / page)
-                if picture is None:
-                    continue
                 place = place_of(index.parent / page)
+                if picture is None or place in files.src_uris:
+                    continue
                 thumbnail(picture, ROOT / "build" / place)
                 files.append(
                     File.generated(config, place, abs_src_path=str(ROOT / "build" / place))
