@@ -75,7 +75,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def place_of(page: Path) -> str:
-    """Where the thumbnail of a page is in the site."""
+    """Address of the thumbnail of a page in the site."""
     return f"thumbnails/{page.relative_to(DOCS).with_suffix('.png').as_posix()}"
 
 

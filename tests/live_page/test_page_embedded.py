@@ -18,7 +18,7 @@ SPOOL = Path(__file__).parents[2] / "docs" / "live" / "spool.toml"
 HOST = """<!doctype html><body><iframe src="film.html#force=60" style="width: {}px"></iframe>
 <script>addEventListener("message", ({{ source, data }}) => {{
   if (source === document.querySelector("iframe").contentWindow)
-    document.body.dataset.told = JSON.stringify(data);
+    document.body.dataset.got = JSON.stringify(data);
 }});</script></body>"""
 
 
@@ -45,14 +45,14 @@ def dom(page, profile, wanted):
     return pytest.fail(f"not found: {wanted}")
 
 
-def told(folder, profile, width):
+def received(folder, profile, width):
     host = folder / f"host-{width}.html"
     host.write_text(HOST.format(width), "utf-8")
-    return json.loads(unescape(dom(host, profile, r'data-told="([^"]*)"')[1]))
+    return json.loads(unescape(dom(host, profile, r'data-got="([^"]*)"')[1]))
 
 
 def test_the_outer_page_hears_height_and_what_is_moved(folder, tmp_path):
-    wide, narrow = told(folder, tmp_path, 800), told(folder, tmp_path, 350)
+    wide, narrow = received(folder, tmp_path, 800), received(folder, tmp_path, 350)
     assert wide["hash"] == narrow["hash"] == "#force=60"
     # One curve and the sliders in a column; a page alone has five times that.
     assert 500 < narrow["height"] < 1200

@@ -233,7 +233,7 @@ function update() {
   const moved = Object.keys(values).filter((name) => values[name] !== start[name]);
   const hash = moved.map((name) => `${name}=${values[name]}`).join("&");
   history.replaceState(null, "", hash ? `#${hash}` : location.pathname + location.search);
-  tell();
+  announce();
 }
 
 // The address, and files -----------------------------------------------------------------------
@@ -241,7 +241,7 @@ function update() {
 // Inside another page: shorter (page.css), and that page hears how tall it is and what is moved.
 const embedded = globalThis.parent !== globalThis;
 document.documentElement.classList.toggle("embedded", embedded);
-function tell() {
+function announce() {
   if (embedded) parent.postMessage({ height: document.body.offsetHeight, hash: location.hash }, "*");
 }
 
@@ -337,7 +337,7 @@ async function main() {
     data.sliders.forEach((s) => s.show());
     update();
   });
-  new ResizeObserver(tell).observe(document.body);
+  new ResizeObserver(announce).observe(document.body);
   document.body.dataset.ready = "yes";
 }
 
