@@ -1,7 +1,8 @@
-"""Hook of mkdocs: a link to a scene of docs/live/, alone in its paragraph, is its live page.
+"""Hook of mkdocs: a link to a scene file, alone in its paragraph, becomes its live page.
 
-Each scene is built once, by ``contactkit page``, and kept in build/live_pages/ until the scene or
-the package changes. On GitHub the link leads to the scene.
+The scenes are those of docs/live/, and of models/. Each page is built once, by ``contactkit page``,
+and kept in build/live_pages/ until the scene or the package changes. On GitHub the link leads to
+the scene.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ from mkdocs.structure.pages import Page
 from mkdocs.utils import get_relative_url
 
 ROOT = Path(__file__).parents[2]
-SCENES, KEPT = ROOT / "docs" / "live", ROOT / "build" / "live_pages"
-LINK = re.compile(r"^\[([^\]\n]+)\]\((?:\.\./)*live/([\w-]+)\.toml\)$", re.MULTILINE)
+DOCS, KEPT = ROOT / "docs", ROOT / "build" / "live_pages"
+LINK = re.compile(r"^\[([^\]\n]+)\]\(([\w./-]+\.toml)\)$", re.MULTILINE)
 SOURCES = {".py", ".c", ".h", ".js", ".css", ".html", ".toml"}
 
 log = get_plugin_logger(__name__)
@@ -57,24 +58,36 @@ def built(scene: Path) -> Path:
         done = subprocess.run(command, capture_output=True, text=True, check=False, env=alone)
         if done.returncode:
             said = done.stderr.strip().rpartition("\r")[2].strip()
-            raise PluginError(f"no live page of docs/live/{scene.name}: {said}")
+            raise PluginError(f"no live page of {scene.name}: {said}")
     return page
+
+
+def shown() -> list[Path]:
+    """Scenes that the pages link to so."""
+    found = {
+        (page.parent / target).resolve()
+        for page in DOCS.rglob("*.md")
+        for _, target in LINK.findall(page.read_text("utf-8"))
+    }
+    return sorted(found)
+
+
+def place_of(scene: Path, kind: str) -> str:
+    """Address of a live page or of its scene in the site."""
+    return f"live/{scene.stem.replace('_', '-')}.{kind}"
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add the pages of all scenes, built side by side."""
-    scenes = sorted(SCENES.glob("*.toml"))
+    scenes = shown()
     with ThreadPoolExecutor(os.cpu_count()) as threads:
         for scene, page in zip(scenes, threads.map(built, scenes), strict=True):
-            place = f"live/{scene.stem}.html"
-            files.append(File.generated(config, place, abs_src_path=str(page)))
-    shown = {
-        name
-        for file in files.documentation_pages()
-        for _, name in LINK.findall(file.content_string)
-    }
-    for scene in scenes:
-        if scene.stem not in shown:
+            for path, kind in ((page, "html"), (scene, "toml")):
+                place = place_of(scene, kind)
+                if place not in files.src_uris:
+                    files.append(File.generated(config, place, abs_src_path=str(path)))
+    for scene in sorted(DOCS.glob("live/*.toml")):
+        if scene not in scenes:
             log.warning(f"no page shows docs/live/{scene.name}")
     return files
 
@@ -84,13 +97,14 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
 
     def frame(match: re.Match[str]) -> str:
         title = escape(match[1])
-        alone, scene = (
-            get_relative_url(f"live/{match[2]}.{kind}", page.url) for kind in ("html", "toml")
+        scene = (DOCS / page.file.src_uri).parent / match[2]
+        alone, file = (
+            get_relative_url(place_of(scene, kind), page.url) for kind in ("html", "toml")
         )
         return (
             f'<figure class="live"><iframe src="{alone}" title="{title}" loading="lazy"></iframe>'
             f'<figcaption><a class="alone" href="{alone}">Open alone</a>, with all '
-            f'curves, numbers, validity and files · <a href="{scene}" download>Scene</a>'
+            f'curves, numbers, validity and files · <a href="{file}" download>Scene</a>'
             "</figcaption></figure>"
         )
 
