@@ -93,7 +93,9 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
-    """Put the live page in place of the link."""
+    """Put the live page in place of the link; CONTRIBUTING.md only shows how it is written."""
+    if not (DOCS / page.file.src_uri).exists():
+        return markdown
 
     def frame(match: re.Match[str]) -> str:
         title = escape(match[1])
