@@ -225,9 +225,10 @@ def parse_unit(text: str) -> Unit:
     if len(text) > _LONGEST:
         raise DescriptionError("unit", text, f"have at most {_LONGEST} letters")
     factor, dimension = 1.0, dict[str, int]()
-    first, *rest = re.split(r"([./*·⋅])", text.replace(" ", ""))
+    first, *rest = re.split(r"([./*·⋅])", text)
     for sign, part in [("", first), *zip(rest[::2], rest[1::2], strict=True)]:
-        match = re.fullmatch(r"(1|[^\d^-]+)(?:\^?(-?\d{1,9}))?", part)
+        part = part.strip()
+        match = re.fullmatch(r"(1|[^\d^-]+)(?:\^?(-?\d{1,9}))?", part.replace(" ", ""))
         found = _symbol(match[1]) if match else None
         if match is None or found is None:
             raise DescriptionError(
@@ -309,7 +310,11 @@ def parse_quantity(value: object, unit: str, field: str = "value") -> float:
                 field, value, "carry a unit", unit=unit, hint=f"for example {example!r}"
             )
         return number
-    found, wanted = parse_unit(symbol), parse_unit(unit)
+    wanted = parse_unit(unit)
+    try:
+        found = parse_unit(symbol)
+    except DescriptionError as error:
+        raise DescriptionError(field, value, error.expected, unit=unit, hint=error.hint) from None
     if found.dimension != wanted.dimension:
         raise DescriptionError(
             field, value, f"be in a unit that converts to {unit}", hint=f"for example {example!r}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import numbers
 import os
+import re
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -47,27 +48,44 @@ def refuse(
     """Return the error that names owner, field, unit and value."""
     unit = attribute.metadata.get("unit", "")
     name = f"{type(owner).__name__}.{attribute.name}"
-    if isinstance(value, str) and unit and not hint:
-        hint = _number_of(value, unit)
     return DescriptionError(name, value, expected, unit="" if unit == "-" else unit, hint=hint)
 
 
-def _number_of(text: str, unit: str) -> str:
-    """Number to write in Python for a quantity as scene files have it; empty for other texts."""
-    try:
-        number = parse_quantity(text, unit)
-    except DescriptionError as error:
-        return error.hint if error.hint.endswith("]") else ""
-    written = int(number) if unit == "-" and number.is_integer() else number
-    return f"a text with a unit is for files and studies; in Python write {written!r}"
+def _read(value: Any, unit: str, name: str) -> Any:
+    """A quantity in SI units from a text that begins as a number; tuples and lists by item."""
+    if isinstance(value, tuple | list):
+        return type(value)(_read(item, unit, name) for item in value)
+    if not (isinstance(value, str) and re.match(r"\s*[-+.\d]", value)):
+        return value  # a number, or a word that the field's own check takes or refuses
+    is_whole = unit == "-" and re.fullmatch(r"\s*[-+]?\d{1,18}\s*", value)
+    return int(value) if is_whole else parse_quantity(value, unit, name)
+
+
+def _reader(converter: Callable[[Any], Any] | None, unit: str, name: str) -> Callable[[Any], Any]:
+    """Converter that reads texts, then does what the field's own converter does."""
+    if converter is None:
+        return lambda value: _read(value, unit, name)
+    return lambda value: converter(_read(value, unit, name))
 
 
 class Described:
-    """Base class of scene objects: an argument that one does not have is refused with its cure."""
+    """Base class of scene objects: quantities may be texts, unknown arguments are refused.
+
+    A field with a unit takes a number in that unit or a text such as ``"5 um"``, also where a
+    user's own class has the field. An argument that a class does not have is refused with its cure.
+    """
 
     __slots__ = ()
 
     if not TYPE_CHECKING:  # which reads the arguments off the fields
+
+        def __init_subclass__(cls, **given: Any) -> None:
+            """Let each field with a unit read texts, before attrs makes ``__init__`` of it."""
+            super().__init_subclass__(**given)
+            for name, made in vars(cls).items():
+                unit = getattr(made, "metadata", {}).get("unit")
+                if unit is not None and hasattr(made, "converter"):
+                    made.converter = _reader(made.converter, unit, f"{cls.__name__}.{name}")
 
         def __new__(cls, *args: Any, **given: Any) -> Any:
             """Check the names of the arguments; ``__init__`` takes them."""

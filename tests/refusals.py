@@ -10,9 +10,11 @@ import attrs
 import pytest
 
 from contactkit.errors import DescriptionError
+from contactkit.validators import Described
 
 # What no field takes for a number.
-NEVER = (math.nan, math.inf, -math.inf, True, "1 um", (1.0,))
+NEVER = (math.nan, math.inf, -math.inf, True, "wide", (1.0,))
+ALIEN = "1 T.mol"  # a text in a unit that no field has
 POSITIVE, NON_NEGATIVE = "be positive and finite", "be zero or positive, and finite"
 FINITE, BETWEEN = "be a finite number", "lie between 0 and 1"
 WHOLE, ANGLE = "be a whole number of at least 1", "lie between 0 and pi"
@@ -73,6 +75,10 @@ def misfits(rows):
             message = f"{name} must {expected}{bracket}, got {value!r}"
             if message not in refused_with(thing, field, value):
                 found.setdefault(name, []).append((value, refused_with(thing, field, value)))
+        message = f".{field} must be in a unit that converts to {unit or '-'}, got {ALIEN!r}"
+        reads_texts = isinstance(thing, Described)
+        if reads_texts and message not in refused_with(thing, field, ALIEN):
+            found.setdefault(name, []).append((ALIEN, refused_with(thing, field, ALIEN)))
     return found
 
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from attrs import field, frozen
 
-from ..errors import DescriptionError, InfeasibleError, PlanError
+from ..arguments import listed
+from ..errors import InfeasibleError, PlanError
 from ..scene.curve import Curve, Shown
 from ..scene.plan import check_scene
 from ..scene.scenes import SeparationScene
@@ -70,7 +71,7 @@ class AdhesionCurve(Curve):
         return {name: (getattr(self.numbers, name), unit) for name, unit in names.items()}
 
 
-def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Floats) -> AdhesionCurve:
+def adhesion_curve(scene: SeparationScene, loads: Sequence[float | str] | Floats) -> AdhesionCurve:
     r"""Contact radius and approach of an adhesive sphere over its load.
 
     Parameters
@@ -115,9 +116,7 @@ def adhesion_curve(scene: SeparationScene, loads: Sequence[float] | Floats) -> A
         raise PlanError("; ".join(f"AdhesiveContact needs {item}" for item in missing))
     from ..separation.effects.adhesion import states_at_loads
 
-    given = np.atleast_1d(np.asarray(loads, dtype=np.float64))
-    if given.ndim != 1 or not np.all(np.isfinite(given)):
-        raise DescriptionError("adhesion_curve(loads)", loads, "be finite numbers", unit="N")
+    given = listed("adhesion_curve(loads)", loads, "N")
     numbers = effect.numbers(prepare_scene(scene, liquid=liquid))
     if given.size and given.min() < -numbers.pull_off_force * (1.0 + 1e-12):
         raise InfeasibleError(

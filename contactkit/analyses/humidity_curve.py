@@ -10,6 +10,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from ..accuracy import Accuracy
+from ..arguments import listed, non_negative
 from ..capillary import kelvin
 from ..contact.effects.base import Attraction, SolvedContact
 from ..contact.effects.island_bridges import IslandBridges
@@ -119,9 +120,9 @@ def _known(value: _T | None, what: str, law: str) -> _T:
 
 def humidity_curve(
     wetted: SeparationScene | ContactResult,
-    relative_humidity: Sequence[float],
+    relative_humidity: Sequence[float | str] | Floats,
     *,
-    gap: float | None = None,
+    gap: float | str | None = None,
     law: Law = "islands",
     accuracy: Accuracy | None = None,
 ) -> HumidityCurve:
@@ -169,10 +170,7 @@ def humidity_curve(
     >>> [round(1e9 * f) for f in found.force]
     [598, 771, 861]
     """
-    humidity = np.array(relative_humidity, dtype=np.float64).reshape(-1)
-    if not np.all(np.isfinite(humidity)) or not len(humidity):
-        where = "humidity_curve(relative_humidity)"
-        raise DescriptionError(where, relative_humidity, "be numbers between 0 and 1")
+    humidity = listed("humidity_curve(relative_humidity)", relative_humidity, "-")
     meniscus, temperature = _meniscus(wetted)
     liquid = meniscus.liquid.at(temperature)
     if liquid.missing("surface_tension"):
@@ -219,13 +217,12 @@ def _meniscus(wetted: SeparationScene | ContactResult) -> tuple[Meniscus, float]
 def _scene(
     scene: SeparationScene,
     pressure: Floats,
-    gap: float | None,
+    gap: float | str | None,
     accuracy: Accuracy | None,
     tension: float,
 ) -> tuple[str, list[_Point], float | None]:
     gap = scene.loading.initial_gap if gap is None else gap
-    if not (math.isfinite(gap) and gap >= 0.0):
-        raise DescriptionError("humidity_curve(gap)", gap, "be zero or positive, and finite")
+    gap = float(non_negative("humidity_curve(gap)", gap, "m"))
     rough = scene.effect(AsperityMenisci)
     if rough is not None:
         area = rough.area(scene)

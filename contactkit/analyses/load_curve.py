@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 from attrs import evolve, field, frozen
 
+from ..arguments import listed
 from ..contact.chain import ContactChain, downwards, loading_of
 from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
@@ -123,9 +124,9 @@ class LoadCurve(Curve):
 def load_curve(
     plan: ContactPlan,
     *,
-    loads: Sequence[float] | None = None,
-    pressures: Sequence[float] | None = None,
-    approaches: Sequence[float] | None = None,
+    loads: Sequence[float | str] | Floats | None = None,
+    pressures: Sequence[float | str] | Floats | None = None,
+    approaches: Sequence[float | str] | Floats | None = None,
     rtol: float | None = None,
     keep_maps: bool = False,
     progress: Callable[[float], None] | None = None,
@@ -219,9 +220,9 @@ class _Point(NamedTuple):
 
 
 def _series(
-    loads: Sequence[float] | None,
-    pressures: Sequence[float] | None,
-    approaches: Sequence[float] | None,
+    loads: Sequence[float | str] | Floats | None,
+    pressures: Sequence[float | str] | Floats | None,
+    approaches: Sequence[float | str] | Floats | None,
 ) -> tuple[str, list[float]]:
     """Name of the imposed quantity, and its values."""
     given = {"force": loads, "pressure": pressures, "approach": approaches}
@@ -232,18 +233,7 @@ def _series(
         raise DescriptionError("load_curve", names or "none", expected)
     name, values = known[0]
     argument, unit = _ARGUMENTS[name]
-    made = np.asarray(values)
-    if made.size == 0:
-        raise DescriptionError(f"load_curve({argument})", "no value", "be one value or more")
-    if made.dtype.kind not in "iuf" or made.ndim != 1 or not np.isfinite(made).all():
-        raise DescriptionError(
-            f"load_curve({argument})",
-            values,
-            "be a sequence of finite numbers",
-            unit=unit,
-            hint="a text with a unit is for files and studies",
-        )
-    return name, [float(value) for value in made]
+    return name, listed(f"load_curve({argument})", values, unit).tolist()
 
 
 def _curve(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 import numpy as np
 from attrs import field, frozen
 
+from ..arguments import listed
 from ..contact.effects.adhesion import Adhesion
 from ..contact.plan import ContactPlan
 from ..contact.result import ContactResult
@@ -20,7 +21,7 @@ from ..scene.plan import check_plan
 from ..validity import ValidityNumber, note_worst, warn
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
 
@@ -241,7 +242,7 @@ _Run = Callable[[float, _State | None], _State]
 
 
 def pull_off_curve(
-    plan: ContactPlan, approaches: Sequence[float] | ArrayLike, *, n_refinements: int = 6
+    plan: ContactPlan, approaches: Sequence[float | str] | Floats, *, n_refinements: int = 6
 ) -> PullOffCurve:
     r"""Follow a contact under adhesion through an approach and the separation after it.
 
@@ -336,10 +337,9 @@ def pull_off_curve(
     )
 
 
-def _checked(approaches: Sequence[float] | ArrayLike) -> list[float]:
-    given = np.asarray(approaches)
-    is_list = given.dtype.kind in "iuf" and given.ndim == 1 and given.size >= 2
-    if not is_list or not np.isfinite(given).all():
+def _checked(approaches: Sequence[float | str] | Floats) -> list[float]:
+    given = listed("pull_off_curve(approaches)", approaches, "m")
+    if given.size < 2:
         raise DescriptionError(
             "pull_off_curve(approaches)", approaches, "be two finite numbers or more", unit="m"
         )

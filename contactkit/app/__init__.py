@@ -1,6 +1,8 @@
 """Runs of the command line: a scene opened, simulated and measured, with files and figures.
 
 scenes       Opening a scene by file or by name, and what the command line does with it.
+check        All mistakes of a scene file, of fields and of physics.
+plugin       Own kinds from a Python file.
 settings     Values that the command line sets over those of a scene.
 listing      Lists of scenes, liquids, materials and effects.
 templates    Commented scene files to begin with.

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 from attrs import frozen
 
 from ..accuracy import Accuracy
-from ..errors import PlanError
+from ..errors import DescriptionError, PlanError, nearest
 from ..export.report import FmuStart
+from ..models.library import bundled_scenes
 from .scenes import Opened, open_scene
 from .settings import assignments, with_settings
 
@@ -86,13 +87,22 @@ def build_fmu(order: Order) -> str:
     from ..fmu.python.build import FMUS, build
 
     by_name = order.what in FMUS
-    opened = None if by_name else with_settings(open_scene(order.what), order.settings)
+    opened = None if by_name else with_settings(_opened(order.what, FMUS), order.settings)
     given = assignments(order.settings) if by_name else {}
     if order.native:
         return _build_native(order, opened, given)
     start = FmuStart(order.what, given) if opened is None else opened.fmu_start()
     build(start.name, order.out, start=start.values)
     return start.name
+
+
+def _opened(what: str, names: Iterable[str]) -> Opened:
+    """Open a scene; a name that is neither one nor an FMU gets the nearest of both."""
+    if not Path(what).suffix and not Path(what).exists() and what not in bundled_scenes():
+        hint = nearest(what, sorted({*names, *bundled_scenes()}))
+        expected = "be the name of an FMU or of a scene, or a scene file"
+        raise DescriptionError("what", what, expected, hint=hint)
+    return open_scene(what)
 
 
 def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any]) -> str:

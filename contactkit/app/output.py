@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import os
 import zlib
 from collections.abc import Iterator, Mapping
@@ -68,12 +69,19 @@ class FileEntry:
 
 @frozen
 class Printed:
-    """Text and numbers that a command printed, with the title of its scene and the values set."""
+    """Text and numbers that a command printed, with the title of its scene and the values set.
+
+    Of a device, whose result is no file, also its plan, its scene as the text of a file, and rows
+    of its numbers of validity.
+    """
 
     title: str
     settings: tuple[str, ...]
     text: str
     numbers: Mapping[str, str]
+    plan: str = ""
+    scene: str = ""
+    validity: tuple[tuple[str, ...], ...] = ()
 
 
 @frozen
@@ -114,15 +122,20 @@ class Folder:
     record: Record
     _stamps: Stamps
 
-    def keep(self, title: str, text: str, numbers: Mapping[str, tuple[Any, str]]) -> None:
-        """Keep what the command printed, for the record; columns are in files already."""
+    def keep(
+        self, title: str, text: str, numbers: Mapping[str, tuple[Any, str]], **more: Any
+    ) -> None:
+        """Keep what the command printed, for the record; columns are in files already.
+
+        `more` are the fields of `Printed` that a device has.
+        """
         shown = {
-            name: value if isinstance(value, str) else quantity_text(float(value), unit)
+            name: value if isinstance(value, str) else _number_text(value, unit)
             for name, (value, unit) in numbers.items()
             if isinstance(value, str | int | float)
         }
         settings = self.command.settings
-        self.record.printed[self.command.name] = Printed(title, settings, text, shown)
+        self.record.printed[self.command.name] = Printed(title, settings, text, shown, **more)
         self.enter()
 
     def enter(self) -> None:
@@ -136,6 +149,11 @@ class Folder:
         self._stamps = after
         if files:
             _write_record(self.path, self.record)
+
+
+def _number_text(value: float, unit: str) -> str:
+    """A number with its unit; what did not occur, such as a release, is nan."""
+    return "none" if math.isnan(value) else quantity_text(float(value), unit)
 
 
 @contextmanager
@@ -324,6 +342,9 @@ def _printed(table: Any) -> Printed:
         tuple(map(_text, table["settings"])),
         _text(table["text"]),
         {_text(name): _text(value) for name, value in table["numbers"].items()},
+        _text(table.get("plan", "")),  # a record of an earlier version has none of these
+        _text(table.get("scene", "")),
+        tuple(tuple(map(_text, row)) for row in table.get("validity", ())),
     )
 
 

@@ -13,6 +13,7 @@ from ..export.pages import bullets, figure, listing, page, section
 from ..extras import missing_extra
 from ..files.results import AnyResult, load_result
 from ..files.scenes import write_whole
+from ..scene.answer import headline
 from .output import RECORD, Printed, Record, read_record
 from .run import cost_text, draw_result
 
@@ -104,10 +105,15 @@ def _page(title: str, sections: Sequence[str], source: str) -> str:
 def _printed_sections(folder: Path, record: Record, command: str, printed: Printed) -> list[str]:
     """Sections of what a command printed: a study, a cost, or the run of a device."""
     numbers = [(name.replace("_", " "), text) for name, text in printed.numbers.items()]
+    plan, _, sources = printed.plan.partition("\nsources:\n")
     return [
         section(f"Figures of {command}", *_pictures(folder, record, command)),
         section(f"Printed by {command}", listing(printed.text)),
         section(f"Numbers of {command}", table(numbers) if numbers else ""),
+        section("Validity", table(printed.validity) if printed.validity else ""),
+        section("Plan", listing(plan) if plan else ""),
+        section("Scene", listing(printed.scene) if printed.scene else ""),
+        section("Sources", bullets([line.strip() for line in sources.splitlines()])),
     ]
 
 
@@ -135,7 +141,7 @@ def _title(result: AnyResult) -> str:
 def _result_sections(result: AnyResult) -> list[str]:
     """Numbers, validity, plan, scene, sources and cost of a result."""
     return [
-        section("Result", numbers_table(f"{result.status}: {result.message}", result.scalars())),
+        section("Result", numbers_table(headline(result.status, result.message), result.scalars())),
         section("Validity", table(validity_rows(result.validity))),
         section("Errata of what is taken as printed", bullets([str(one) for one in result.errata])),
         section("Plan", result.plan._repr_html_()),

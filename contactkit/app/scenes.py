@@ -21,7 +21,7 @@ from .study import StudyOptions, study_lines
 if TYPE_CHECKING:
     from .fit import FitOptions
 
-__all__ = ["Opened", "OpenedDevice", "OpenedScene", "open_scene"]
+__all__ = ["Opened", "OpenedDevice", "OpenedScene", "described", "open_scene", "open_tables"]
 
 Progress = Callable[[float], None]
 
@@ -65,10 +65,10 @@ def open_scene(name: str) -> OpenedScene | OpenedDevice:
         path = bundled_scene(name)
     tables = read_tables(path)
     with telling_lines(path):
-        return _opened(tables, path.name)
+        return open_tables(tables, path.name)
 
 
-def _opened(tables: dict[str, Any], origin: str) -> OpenedScene | OpenedDevice:
+def open_tables(tables: dict[str, Any], origin: str) -> OpenedScene | OpenedDevice:
     """Open the tables of a file: of a device if it has a ``device`` key."""
     if "device" not in tables:
         return OpenedScene(*read_scene(tables, scene_kind(tables), origin))
@@ -174,3 +174,17 @@ class OpenedDevice:
     def fmu_start(self) -> FmuStart:
         """See `Opened.fmu_start`."""
         return self.scene.report.fmu_start(self.scene)
+
+
+def described(opened: object, report: Report) -> dict[str, Any]:
+    """Plan, scene and validity of a report of a device; a result of a scene has them itself."""
+    if not isinstance(opened, OpenedDevice):
+        return {}
+    from .report_page import validity_rows
+
+    rows = [(case, *row) for case, one in report.validity for row in validity_rows([one])]
+    return {
+        "plan": opened.plan_text(),
+        "scene": str(opened.scene),
+        "validity": tuple(sorted(rows, key=lambda row: "OUT OF RANGE" not in row[2])),
+    }

@@ -45,6 +45,27 @@ def _flag(entry: str, *names: str, help: str) -> click.Option:
     return click.Option(names, is_flag=True, expose_value=False, callback=keep, help=help)
 
 
+def _plugin() -> click.Option:
+    """The option that runs a file of own kinds before the command opens a scene."""
+
+    def run(context: click.Context, _: click.Parameter, paths: tuple[Path, ...]) -> None:
+        if paths and not context.resilient_parsing:
+            from ..app.plugin import load_plugin
+
+            for path in paths:
+                load_plugin(path)
+
+    return click.Option(
+        ["--plugin"],
+        type=click.Path(path_type=Path),
+        metavar="FILE.py",
+        multiple=True,
+        expose_value=False,
+        callback=run,
+        help="Run a Python file that registers effects or other kinds of yours.",
+    )
+
+
 # Click keeps the help option of the first call, which need not come through the whole command line.
 _HELP: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 
@@ -56,6 +77,7 @@ class Command(click.Command):
         super().__init__(*args, **more)
         self.context_settings = {**_HELP, **self.context_settings}
         self.params += [
+            _plugin(),
             _flag(QUIET, "--quiet", "-q", help="Print errors only, and what --json asks for."),
             _flag(VERBOSE, "--verbose", "-v", help="Print wall and CPU time of each step, too."),
             _flag(TRACEBACK, "--traceback", help="Show the traceback of an error."),

@@ -88,6 +88,11 @@ def progress(text: str) -> Iterator[Callable[[float], None]]:
             bar.update(0)
 
         yield update
+        if (
+            not bar.disable and bar.last_print_t > bar.start_t
+        ):  # it was shown: a log file ends with 100 %, too
+            bar.n = 100.0
+            bar.refresh()
 
 
 @contextmanager

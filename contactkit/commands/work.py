@@ -52,7 +52,9 @@ def run_job(
         show(report, job.as_json)
         if folder is None:
             return
-        folder.keep(opened.name, report.text, report.scalars)
+        from ..app.scenes import described
+
+        folder.keep(opened.name, report.text, report.scalars, **described(opened, report))
         if page:
             from ..app.report_page import PAGE, folder_page, write_page
 

@@ -12,7 +12,7 @@ from ..errors import DescriptionError
 from ..roughness.height_maps import Trend, detrended
 from ..scene.interface import Body, Interface
 from ..scene.loading import Pressing
-from ..scene.materials import Material, Stack
+from ..scene.materials import Material, Solid, Stack
 from ..scene.rough_surfaces import Heights
 from ..scene.scenes import ContactScene
 from ..scene.topography import Topography, as_surface, is_topography
@@ -103,9 +103,14 @@ def press(
     >>> result.status, round(result.contact_fraction, 2)
     ('converged', 0.23)
     """
-    if stack is None:
+    if not isinstance(stack, Solid):
         raise DescriptionError(
-            "press(stack)", None, "be a Stack or a Material: the solid of the flat"
+            "press(stack)",
+            stack,
+            "be a Stack or a Material: the solid of the flat",
+            hint=f"one of the library is ck.load_material({stack!r})"
+            if isinstance(stack, str)
+            else "",
         )
     flat = Body(solid=stack)
     layered = flat.stack is not None and bool(flat.stack.layers)

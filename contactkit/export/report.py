@@ -6,7 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-__all__ = ["FmuStart", "Report"]
+from ..validity import ValidityNumber
+
+__all__ = ["FmuStart", "Report", "validity_lines"]
 
 
 class Report(NamedTuple):
@@ -14,13 +16,15 @@ class Report(NamedTuple):
 
     `write` writes the files of numbers, then `draw` the pictures; each returns its files. They are
     called after the numbers have been printed, which a full disk then does not take away. None
-    without a folder to write to.
+    without a folder to write to. `validity` has the numbers of validity of a device, each with the
+    case that it belongs to.
     """
 
     scalars: Mapping[str, tuple[Any, str]]
     text: str
     write: Callable[[], Sequence[Path]] | None = None
     draw: Callable[[], Sequence[Path]] | None = None
+    validity: Sequence[tuple[str, ValidityNumber]] = ()
 
 
 class FmuStart(NamedTuple):
@@ -32,3 +36,20 @@ class FmuStart(NamedTuple):
     name: str
     values: Mapping[str, Any]
     film: Any = None
+
+
+def validity_lines(found: Sequence[tuple[str, ValidityNumber]]) -> list[str]:
+    """Numbers of validity that were evaluated, a line for each case.
+
+    Examples
+    --------
+    >>> bond = ValidityNumber(name="Bond number", value=0.2, high=0.1, detail="gravity is left out")
+    >>> validity_lines([("20 degC", bond)])
+    ['validity, 20 degC: Bond number 0.2 OUT OF RANGE']
+    """
+    lines = dict[str, list[str]]()
+    for case, number in found:
+        if number.value is not None:
+            verdict = "ok" if number.is_valid else "OUT OF RANGE"
+            lines.setdefault(case, []).append(f"{number.name} {number.value:.2g} {verdict}")
+    return [f"validity, {case}: {', '.join(numbers)}" for case, numbers in lines.items()]

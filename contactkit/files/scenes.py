@@ -27,6 +27,7 @@ from .structure import (
     FileProblem,
     load_liquid,
     load_material,
+    read_part,
     structure,
     telling_lines,
     unstructure,
@@ -69,13 +70,17 @@ def read_scene(tables: Mapping[str, Any], kind: type[S], origin: str) -> SceneFi
         Listing every mistake and where it is.
     """
     rest = dict(tables)
-    accuracy = structure(rest.pop("accuracy", {}), Accuracy, f"{origin}, accuracy")
+    accuracy, problems = read_part(rest.pop("accuracy", {}), Accuracy, "accuracy")
     study = rest.pop("study", {})
+    scene, mistakes = read_part(rest, kind)
+    problems += mistakes
     if not isinstance(study, Mapping) or not all(isinstance(v, list) for v in study.values()):
-        raise DescriptionError(
-            f"{origin}, study", study, "be a table of lists", hint='"loading.pressure" = [...]'
-        )
-    return SceneFile(structure(rest, kind, origin), accuracy, study)
+        hint = '"loading.pressure" = [...]'
+        error = DescriptionError("study", study, "be a table of lists", hint=hint)
+        problems.append(FileProblem(str(error), "study"))
+    if scene is None or accuracy is None or problems:
+        raise FileError(origin, problems)
+    return SceneFile(scene, accuracy, study)
 
 
 def read_tables(path: str | Path) -> dict[str, Any]:

@@ -43,6 +43,7 @@ __all__ = [
     "library_names",
     "load_liquid",
     "load_material",
+    "read_part",
     "renamed",
     "structure",
     "telling_lines",
@@ -114,13 +115,28 @@ def _tagged(known: Registry[Any] | Registries[Any], tag: str) -> Callable[[Any, 
         if not isinstance(value, Mapping):
             raise DescriptionError(tag, value, f"be a table with a key {tag!r}")
         rest = dict(value)
-        kind = known.find(rest.pop(tag, None), tag)
+        kind = _found(known, rest.pop(tag, None), tag)
         # A class that is its own base would come here again, without its name.
         return (
             _attrs_class(kind)(rest, kind) if _is_base(kind) else _CONVERTER.structure(rest, kind)
         )
 
     return hook
+
+
+def _found(known: Registry[Any] | Registries[Any], name: Any, tag: str) -> type:
+    """Find a kind; the message names the family that has one of this name, or how to add one."""
+    try:
+        return known.find(name, tag)
+    except DescriptionError as error:
+        if not isinstance(name, str) or not error.hint.startswith("known"):
+            raise
+        names = dict.fromkeys(one.family for one in KINDS._registries() if one.get(name))
+        cure = f"it is a {' and a '.join(names)}" if names else error.hint + _OWN
+        raise DescriptionError(tag, name, error.expected, hint=cure) from None
+
+
+_OWN = "; one of your own: ck.register, and on the command line --plugin FILE.py"
 
 
 def _of_family(base: type) -> Callable[[Any, Any], Any]:
@@ -166,7 +182,7 @@ def _quantity(kind: type, attribute: attrs.Attribute[Any]) -> Callable[[Any, Any
         if isinstance(value, list | tuple):
             return tuple(hook(item, target) for item in value)
         if attribute.type is int and isinstance(value, str):
-            raise DescriptionError(field, value, "be a whole number, without quotes")
+            return value  # which the class reads itself
         return parse_quantity(value, unit, field)
 
     return hook
@@ -417,12 +433,23 @@ def structure(tables: Mapping[str, Any], kind: type[_T], origin: str) -> _T:
     DescriptionError
         Listing every mistake and where it is.
     """
+    made, problems = read_part(tables, kind)
+    if made is None:
+        raise FileError(origin, problems)
+    return made
+
+
+def read_part(
+    tables: Any, kind: type[_T], place: str = ""
+) -> tuple[_T, list[FileProblem]] | tuple[None, list[FileProblem]]:
+    """Build an object from the tables at a place of a file: the object, or all mistakes."""
     try:
-        return _CONVERTER.structure(tables, kind)
+        return _CONVERTER.structure(tables, kind), []
     except DescriptionError as error:
-        raise DescriptionError(origin, kind.__name__, f"describe a scene; {error}") from None
+        return None, [FileProblem(str(error), place)]
     except cattrs.ClassValidationError as error:
-        raise FileError(origin, _problems(error)) from None
+        found = _problems(error)
+    return None, [FileProblem(text, ".".join(filter(None, (place, at)))) for text, at in found]
 
 
 def _problems(error: cattrs.ClassValidationError) -> list[FileProblem]:

@@ -22,6 +22,7 @@ from ..accuracy import Accuracy
 from ..errors import PlanError
 from ..extras import require
 from ..files.scenes import scene_text, unstructure, write_whole
+from ..liquids.temperature_table import LiquidTable, liquid_table
 from ..scene.loading import ImposedForce
 from ..scene.scenes import SeparationScene
 from ..separation.effects.base import FilmStatus
@@ -30,7 +31,6 @@ from ..separation.plan import Plan, plan
 from ..separation.simulate import simulate
 from ..separation.validity import path_of
 from .family import Family, family_of
-from .liquid import LiquidTable, liquid_table
 from .module import kernel_module
 from .scene import KernelScene, check_scene, kernel_scene
 from .sliders import Slider, family_sliders, sliders_of

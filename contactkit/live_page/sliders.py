@@ -8,6 +8,7 @@ from typing import Any, Literal, NamedTuple
 
 from attrs import evolve, frozen
 
+from ..liquids.temperature_table import LiquidTable
 from ..scene.loading import ImposedForce
 from ..scene.scenes import SeparationScene
 from ..scene.surfaces import Flat, Sphere
@@ -15,7 +16,6 @@ from ..separation.effects.base import SeparationEffect
 from ..separation.effects.rupture import Rupture
 from ..separation.effects.viscous import ShearLimit, TensionLimit
 from ..units import readable_unit
-from .liquid import LiquidTable
 from .scene import KernelScene
 
 __all__ = ["Slider", "family_sliders", "sliders_of"]

@@ -7,7 +7,18 @@ from pathlib import Path
 
 from .tabular import Tabular
 
-__all__ = ["Answer"]
+__all__ = ["Answer", "headline"]
+
+
+def headline(status: str, message: str) -> str:
+    """Status and message of a result in one line; a message may begin with its status.
+
+    Examples
+    --------
+    >>> headline("converged", "converged: conditions met"), headline("released", "after 1 ms")
+    ('converged: conditions met', 'released: after 1 ms')
+    """
+    return message if message.startswith(status) else f"{status}: {message}"
 
 
 class Answer(Tabular):
@@ -48,7 +59,7 @@ class Answer(Tabular):
     @property
     def _headline(self) -> str:
         """First line of what is printed."""
-        return f"{self.status}: {self.message}"
+        return headline(self.status, self.message)
 
     def _repr_html_(self) -> str:
         """Status and numbers in a notebook."""

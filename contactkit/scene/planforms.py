@@ -16,7 +16,7 @@ from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
 from ..reading.named_files import Contents
-from ..units import si
+from ..units import parse_quantity, si
 from ..validators import (
     Described,
     as_pair,
@@ -711,7 +711,7 @@ class Difference(_Composed):
         return self, ()
 
 
-def equilateral_triangle(side: float) -> Polygon:
+def equilateral_triangle(side: float | str) -> Polygon:
     """Equilateral triangle of a side [m], its centroid at the origin.
 
     Examples
@@ -719,8 +719,9 @@ def equilateral_triangle(side: float) -> Polygon:
     >>> round(float(equilateral_triangle(1.0).level(0.0, 0.0)), 6)
     0.288675
     """
+    side = parse_quantity(side, "m", "equilateral_triangle(side)")
     if not side > 0.0:
-        raise DescriptionError("equilateral_triangle.side", side, "be positive", unit="m")
+        raise DescriptionError("equilateral_triangle(side)", side, "be positive", unit="m")
     inner = side / math.sqrt(12.0)
     corners = ((-0.5 * side, -inner), (0.5 * side, -inner), (0.0, 2.0 * inner))
     return Polygon(corners=corners)

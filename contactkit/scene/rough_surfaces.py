@@ -242,7 +242,16 @@ _FILES: Contents[Measured, Heights] = Contents(_read)
 def _as_map(value: Any) -> Map:
     import numpy as np
 
-    given = np.asarray(value)
+    try:
+        given = np.asarray(value)
+    except ValueError:  # numpy's words speak of its own dimensions
+        raise DescriptionError(
+            "Heights.heights",
+            "rows of different lengths",
+            "be an array [y, x]",
+            unit="m",
+            hint="give each row as many heights; mark what was not measured by nan",
+        ) from None
     if given.dtype.kind not in "fiu":
         raise DescriptionError(
             "Heights.heights",

@@ -3,5 +3,4 @@
 menisci       `capillary_force` in humid air and `bridge_force` of a given volume.
 squeeze       `squeeze_time` of a viscous film between flats.
 contact_area  `contact_area` of a rough surface under a pressure.
-arguments     Quantities of these calls: numbers, arrays or texts with a unit, checked.
 """

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ..arguments import single
 from ..contact.press import press
 from ..scene.materials import Material
-from .arguments import single
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -5,13 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, overload
 
-from ..capillary.exact.at_pressure import bridge_at_pressure
-from ..capillary.exact.bridge import bridge
-from ..capillary.kelvin import laplace_pressure
-from ..errors import DescriptionError
-from ..files.structure import load_liquid
-from ..liquids.liquid import Liquid
-from .arguments import (
+from ..arguments import (
     angles,
     check_shapes,
     non_negative,
@@ -21,6 +15,12 @@ from .arguments import (
     quantity,
     single,
 )
+from ..capillary.exact.at_pressure import bridge_at_pressure
+from ..capillary.exact.bridge import bridge
+from ..capillary.kelvin import laplace_pressure
+from ..errors import DescriptionError
+from ..files.structure import load_liquid
+from ..liquids.liquid import Liquid
 
 if TYPE_CHECKING:
     import numpy as np

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 
+from ..arguments import check_shapes, plain, positive, positive_or_inf
 from ..errors import DescriptionError
 from ..lubrication.squeeze_film import disc_impulse_conserved, disc_impulse_flooded
-from .arguments import check_shapes, plain, positive, positive_or_inf
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -5,7 +5,7 @@ from __future__ import annotations
 import abc
 import math
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -119,23 +119,54 @@ class StudyColumns(Answer):
         """Return all columns over the parameters, each an axis with its shortest name.
 
         Values that are no numbers, such as liquids, are given by their names. An axis along which
-        several parameters vary together has the name of the first.
+        several parameters vary together has the name of the first if its values rise or fall all
+        the way, so that they distinguish the points; else, as of a Latin hypercube, ``point``.
         """
         varied = self._varied
         names = labels_of([*varied, *self.units], varied)
-        axes = tuple(names[paths[0]] for paths in self.paths)
-        found = {}
+        axes, found = tuple(self._axis_names(names)), dict[str, Quantity]()
         for i, paths in enumerate(self.paths):
-            at = np.moveaxis(np.arange(self.n_points).reshape(self.shape), i, 0)
-            first = at.reshape(self.shape[i], -1)[:, 0]
             for path in paths:
-                values = _as_array(self.column(path)[first])
+                values = _as_array(self._along(i, path))
                 found[names[path]] = Quantity((axes[i],), values, self.units[path], path)
         for name in [*self.units, "status"]:
             if name not in varied:
                 values, unit = self.column(name).reshape(self.shape), self.units.get(name, "-")
                 found[name] = Quantity(axes, values, unit, name.replace("_", " "))
         return Contents(axes, found, {"title": "study"})
+
+    def _along(self, axis: int, path: str) -> NDArray[Any]:
+        """Values of a parameter at the points of its axis."""
+        at = np.moveaxis(np.arange(self.n_points).reshape(self.shape), axis, 0)
+        values: NDArray[Any] = self.column(path)[at.reshape(self.shape[axis], -1)[:, 0]]
+        return values
+
+    def _axis_names(self, names: Mapping[str, str]) -> Iterator[str]:
+        """Names of the axes, of which those without an own one are numbered from the second on."""
+        unnamed = 0
+        for i, paths in enumerate(self.paths):
+            if len(paths) == 1 or _is_monotone(self._along(i, paths[0])):
+                yield names[paths[0]]
+                continue
+            unnamed += 1
+            yield "point" if unnamed == 1 else f"point_{unnamed}"
+
+    def path_of(self, name: str) -> str:
+        """Path of a parameter by its name in tables, its path, or the beginning of that.
+
+        Raises
+        ------
+        DescriptionError
+            If there is none.
+        """
+        varied = self._varied
+        names = labels_of([*varied, *self.units], varied)
+        found = [path for path in varied if name in (path, names[path])]
+        found += [path for path in varied if path.startswith(name)]
+        if not found:
+            known = [names[path] for path in varied]
+            raise DescriptionError("over", name, f"be one of {', '.join(known)}")
+        return found[0]
 
     def lines(self, along: str | None = None) -> tuple[StudyLine, ...]:
         """Return the points as lines along one parameter, one for each combination of the others.
@@ -232,6 +263,14 @@ def as_text(value: Any, digits: int = 6) -> str:
     if " " not in text and len(text) > _WIDEST:  # a path, known by its end
         return f"... {text[4 - _WIDEST :]}"
     return textwrap.shorten(text, _WIDEST, placeholder=" ...")
+
+
+def _is_monotone(values: NDArray[Any]) -> bool:
+    """Whether values are numbers that rise or fall all the way."""
+    if values.dtype.kind not in "fiu":
+        return False
+    steps = np.diff(values)
+    return bool((steps > 0.0).all() or (steps < 0.0).all())
 
 
 def labels_of(shown: list[str], varied: list[str]) -> dict[str, str]:

@@ -1,23 +1,24 @@
-"""Pages of the API, by topic: public names as users write them, then functions by module.
+"""Pages of the API, by topic: public names as users write them, then what else a user calls.
 
 A name of ``contactkit`` belongs to the topic that lists the longest beginning of its home.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import contactkit as ck
 
 
 class Topic(NamedTuple):
-    """A page: homes of the public names on it, and modules that are shown whole."""
+    """A page: homes of the public names on it, and what else of the package a user calls."""
 
     page: str
     title: str
     homes: Sequence[str] = ()
-    modules: Sequence[str] = ()
+    more: Sequence[str] = ()
 
 
 def _of(room: str, *names: str) -> tuple[str, ...]:
@@ -27,86 +28,88 @@ def _of(room: str, *names: str) -> tuple[str, ...]:
 TOPICS = (
     Topic("scenes", "Scenes", ("scene",)),
     Topic("loading", "Loading", ("scene.loading",)),
+    Topic("bodies", "Bodies and materials", _of("scene", "materials", "asperity_population")),
     Topic(
-        "bodies",
-        "Materials and surfaces",
-        _of(
-            "scene",
-            "materials",
-            "surfaces",
-            "planforms",
-            "faces",
-            "rough_surfaces",
-            "asperity_population",
-        ),
+        "surfaces",
+        "Surfaces and faces",
+        _of("scene", "surfaces", "planforms", "faces", "rough_surfaces"),
     ),
     Topic(
         "liquids",
         "Liquids",
         ("liquids", "scene.meniscus"),
-        _of("contactkit.liquids", "temperature_laws", "viscosity", "water"),
+        _of(
+            "liquids",
+            *("temperature_laws.LinearSurfaceTension", "temperature_laws.LinearDensity"),
+            *("viscosity.WaltherViscosity", "viscosity.VogelViscosity"),
+            *("water.IapwsSurfaceTension", "water.KellWaterDensity"),
+        ),
     ),
     Topic(
         "separation-effects",
         "Effects of separation and sliding",
-        _of("separation", "effects", "sliding.effects"),
+        (
+            *_of("separation", "effects", "sliding.effects", "wetting"),
+            *_of("separation.deforming", "effects"),
+        ),
     ),
     Topic("contact-effects", "Effects of contact", ("contact.effects", "kinds")),
     Topic("run", "Planning and solving", ("planning", "accuracy", "contact", "separation")),
     Topic(
         "results",
         "Results",
-        ("contact.result", "separation.results", "separation.sliding.result", "separation.motion"),
-    ),
-    Topic("one-number", "One number from one call", ("shortcuts",)),
-    Topic(
-        "analyses",
-        "Analyses and studies",
-        ("analyses", "studies", "contact.functionals"),
         (
-            *_of("contactkit.analyses", "heights", "area_over_load", "load_for", "subsurface"),
-            *_of("contactkit.contact", "patches", "plastic_history", "functionals", "adjoint"),
+            *("contact.result", "separation.results", "separation.sliding.result"),
+            *("separation.motion", "separation.deforming.result", "scene.gradient"),
         ),
     ),
+    Topic("one-number", "One number from one call", ("shortcuts",)),
+    Topic("curves", "Curves and maxima", ("analyses",)),
+    Topic(
+        "statistics",
+        "Statistics of surfaces and contacts",
+        (),
+        (
+            *_of("analyses", "heights.surface_heights", "area_over_load.area_over_load"),
+            *_of("analyses", "load_for.load_for_contact_fraction", "load_for.load_of_first_yield"),
+            *_of("analyses", "subsurface.stress_below", "subsurface.maximum_planes"),
+            *_of("contact", "patches.contact_patches", "patches.patch_density"),
+            *_of("contact", "plastic_history.residual_surface"),
+            *_of("roughness.statistics", "surface_statistics", "rms_slope", "rms_curvature"),
+            *_of("roughness.statistics", "bearing_curve", "summits", "correlation_length"),
+            *_of("roughness.spectra", "radial_spectrum", "plane_spectrum", "profile_spectrum"),
+        ),
+    ),
+    Topic("studies", "Studies and gradients", ("studies", "contact.functionals")),
     Topic("fits", "Fits", ("fitting",)),
-    Topic("files", "Files", ("files",)),
+    Topic(
+        "files",
+        "Files and units",
+        ("files",),
+        _of("units", "celsius", "parse_quantity", "quantity_text"),
+    ),
     Topic(
         "pictures",
         "Pictures",
         ("plot",),
-        _of(
-            "contactkit.plot",
-            "separation",
-            "contact",
-            "study",
-            "stress",
-            "roughness",
-            "adhesion",
-            "slip",
-            "film",
-            "plastic_history",
+        (
+            *_of("plot", "roughness.height_map", "roughness.area_and_theories"),
+            *_of("plot.stress", "draw_section"),
         ),
     ),
-    Topic("errors", "Errors and units", ("errors",), ("contactkit.units",)),
+    Topic("errors", "Warnings and errors", ("errors",)),
     Topic("published", "Equations as published", ("as_published",)),
     Topic(
-        "capillarity",
-        "Capillarity",
-        (),
-        _of(
-            "contactkit.capillary",
-            *("kelvin", "exact.bridge", "exact.at_pressure", "exact.stability", "exact.profile"),
-            *("exact.result", "arc.bridge", "contact_radius", "condensed", "many_menisci"),
-            *("asperities", "film_islands", "island_bridges"),
-        ),
-    ),
-    Topic(
-        "films",
-        "Films",
+        "menisci",
+        "Menisci and adhesion, one at a time",
         (),
         (
-            *_of("contactkit.lubrication", "squeeze_film", "film_limits", "constant_force"),
-            *_of("contactkit.lubrication", "couette_flat", "couette_sphere", "dimensionless"),
+            *_of("capillary.kelvin", "kelvin_radius", "meniscus_height", "relative_humidity"),
+            *_of("capillary.exact", "bridge.bridge", "bridge.bridge_at_pressure"),
+            *_of("capillary.exact", "stability.stability_limit", "profile.profile"),
+            *_of("capillary", "arc.bridge.arc_bridge", "many_menisci.max_stable_count"),
+            *_of("adhesion", "van_der_waals.sphere_force", "parameters.scales"),
+            *_of("adhesion.rough_limits", "full_contact_energy", "stickiness_number"),
         ),
     ),
     Topic(
@@ -114,61 +117,57 @@ TOPICS = (
         "Films on faces",
         (),
         _of(
-            "contactkit.lubrication.reynolds",
-            *("face", "gaps", "film", "solve", "motion", "damping", "shape_factor"),
-            "rough_flow",
-        ),
-    ),
-    Topic(
-        "solids",
-        "Elasticity and adhesion",
-        (),
-        (
-            *_of("contactkit.elasticity", "layered", "love", "point_load", "hardness_rules"),
-            *_of("contactkit.elasticity", "stress.measures"),
-            *_of("contactkit.adhesion", "attraction", "van_der_waals", "parameters", "jkr", "dmt"),
-            *_of("contactkit.adhesion", "maugis_dugdale", "rough_limits"),
-        ),
-    ),
-    Topic(
-        "roughness",
-        "Roughness",
-        (),
-        _of("contactkit.roughness", "random_surfaces", "spectra", "statistics", "contact_theories"),
-    ),
-    Topic(
-        "reference-solutions",
-        "Reference solutions",
-        (),
-        _of(
-            "contactkit.reference",
-            *("hertz", "flat_punch", "westergaard", "product_wave", "love_patch", "hamilton"),
-            *("partial_slip", "layered_wave", "reynolds", "elliptic_bridge", "sphere_bridges"),
-            "viscous_films",
-        ),
-    ),
-    Topic(
-        "devices",
-        "Devices",
-        (),
-        (
-            *_of("contactkit.models.injector", "coil", "valve", "monolithic"),
-            *_of("contactkit.models.micromirror", "mirror", "tip", "electrostatics", "landing"),
+            "lubrication.reynolds",
+            *("face.rasterise", "face.face_from_image", "face.face_from_level", "face.Hole"),
+            *("face.Pocket", "gaps.gap_map", "film.GridFilm", "film.GridFilmState"),
+            *("solve.at_rest", "solve.solve_pressure", "solve.steady_film", "solve.step_film"),
+            *("motion.follow_gap", "shape_factor.face_damping", "damping.ring_damping"),
+            *("shape_factor.tabulate_damping", "shape_factor.rough_damping"),
+            *("rough_flow.flow_factors", "rough_flow.leakage"),
         ),
     ),
     Topic(
         "fmus",
-        "FMUs",
+        "FMUs and devices",
         (),
         (
-            "contactkit.fmu.python.build",
-            "contactkit.fmu.native.build",
-            "contactkit.fmu.framework.ports",
-            "contactkit.fmu.framework.slave",
-            "contactkit.fmu.master.couple",
+            *_of("fmu", "python.build.build", "python.build.validate"),
+            *_of("fmu", "native.build.build_native"),
+            *_of("fmu.master.couple", "couple", "Mass", "FixedSteps", "AdaptiveSteps"),
+            *("models.injector.monolithic.simulate", "models.micromirror.landing.land"),
         ),
     ),
 )
+
+# Members that a user calls; other members of a class serve the engine, or are fields above.
+MEMBERS: Mapping[str, Sequence[str]] = {
+    "DugdaleAttraction": ("from_meniscus",),
+    "AsperityPopulation": ("split",),
+    "Liquid": ("at",),
+    "Meniscus": ("from_coverage", "from_radius"),
+    "Material": ("plane_strain_modulus",),
+    "FineRoughness": ("patch",),
+    "Plan": ("force", "validity"),
+    "ContactPlan": ("heights", "memory", "rigid_approach", "with_loading"),
+    "ContactResult": (
+        *("contact", "holes", "contact_area", "corrected_contact_area", "contact_fraction"),
+        *("load", "mean_pressure", "max_pressure", "max_displacement", "approach"),
+        *("plastic_area", "of", "scalars"),
+    ),
+    "SeparationResult": (
+        *("gap", "pull", "viscous_impulse", "mean_viscous_force", "errata", "of", "scalars"),
+    ),
+    "SlidingResult": ("travel", "duration", "errata", "of", "total", "scalars"),
+    "DeformingResult": ("gap", "pull", "error", "section", "maps", "of", "scalars"),
+    "Gradient": ("relative", "table"),
+    "StudyFile": ("status", "column", "failed", "forget_failed", "save_csv"),
+    "Fit": ("correlations", "table", "profile", "sample", "to_toml", "save", "cite"),
+    "SavedCurve": ("table", "scalars"),
+    "GridFilmState": (
+        *("force", "torque", "centre_of_pressure", "liquid_volume", "void_volume"),
+        *("cavity_area", "dissipation", "shear_force", "shear_traction", "validity"),
+    ),
+}
 
 
 def topic_of(home: str) -> Topic:
@@ -194,30 +193,22 @@ def public_names() -> dict[str, list[str]]:
     return found
 
 
-def summary(name: str) -> str:
-    """First line of the docstring of a public name; tables of things have none."""
-    value = getattr(ck, name)
-    if not callable(value):
-        return f"{type(value).__name__}, {len(value)} entries"
-    text = (value.__doc__ or "").strip().partition("\n\n")[0]
-    return " ".join(text.split()).replace("``", "`").replace("|", "\\|")
-
-
 def api_table() -> str:
     """The public names of ``contactkit``, by topic."""
     names = public_names()
-    parts = []
+    rows = []
     for topic in TOPICS:
-        if names[topic.page]:
-            rows = "\n".join(f"| `ck.{name}` | {summary(name)} |" for name in names[topic.page])
-            parts.append(f"## {topic.title}\n\n| name | is |\n|---|---|\n{rows}")
-    return "\n\n".join(parts)
+        shown = [f"`ck.{name}`" for name in names[topic.page]]
+        shown += [f"`{path.rpartition('.')[2]}`" for path in topic.more]
+        rows.append(f"| {topic.title} | {', '.join(shown)} |")
+    return "\n".join(("| page | names |", "|---|---|", *rows))
 
 
-def _block(path: str, **options: str) -> str:
+def _block(path: str, heading: str, label: str) -> str:
     """What mkdocstrings reads."""
-    lines = (f"      {key}: {value}" for key, value in options.items())
-    return "\n".join((f"::: {path}", "    options:", *lines))
+    members = ", ".join(MEMBERS.get(label, ()))
+    options = (f"heading: {heading}", f"toc_label: {label}", f"members: [{members}]")
+    return "\n".join((f"::: {path}", "    options:", *(f"      {line}" for line in options)))
 
 
 def pages() -> dict[str, str]:
@@ -226,10 +217,32 @@ def pages() -> dict[str, str]:
     found = {}
     for topic in TOPICS:
         parts = [f"# {topic.title}"]
-        parts += [
-            _block(f"contactkit.{name}", heading=f"ck.{name}", toc_label=name)
-            for name in names[topic.page]
-        ]
-        parts += [_block(module, toc_label=module.rpartition(".")[2]) for module in topic.modules]
+        parts += [_block(f"contactkit.{n}", f"ck.{n}", n) for n in names[topic.page]]
+        parts += [_block(f"contactkit.{p}", p, p.rpartition(".")[2]) for p in topic.more]
         found[f"api/{topic.page}.md"] = "\n\n".join(parts) + "\n"
     return found
+
+
+ENTRY = re.compile(r'(?=<div class="doc doc-object doc-\w+">\s*<h2 )')
+PARTS = re.compile(
+    r"(?P<head>.*?</h2>)(?P<signature>.*?)(?P<open><div class=\"doc doc-contents first\">)"
+    r"\s*<p>(?P<summary>.*?)</p>(?P<rest>.*)</div>(?P<after>[^<]*)\Z",
+    re.DOTALL,
+)
+
+
+def folded(html: str) -> str:
+    """A page as an index: each entry shows its name and one sentence, and opens to the rest."""
+
+    def fold(entry: str) -> str:
+        found = PARTS.match(entry)
+        if found is None:
+            return entry
+        part = found.groupdict()
+        return (
+            f"{part['head']}<details><summary>{part['summary']}</summary>"
+            f"{part['signature']}{part['open']}{part['rest']}</details></div>{part['after']}"
+        )
+
+    before, *entries = ENTRY.split(html)
+    return before + "".join(fold(entry) for entry in entries)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from device_tables import in_prose
 from validation_tables import grid
 
 import contactkit as ck
@@ -37,8 +38,9 @@ def material_table() -> str:
         one = ck.load_material(name)
         hardness = quantity_text(one.hardness, "Pa") if one.hardness else "-"
         modulus = quantity_text(one.young_modulus, "Pa")
-        rows.append((f"`{name}`", modulus, f"{one.poisson_ratio:g}", hardness, one.source))
-    return grid(("material", "Young's modulus", "Poisson's ratio", "hardness", "source"), rows)
+        elastic = f"{modulus}, {one.poisson_ratio:g}"
+        rows.append((f"`{name}`", elastic, hardness, in_prose(one.source)))
+    return grid(("material", "modulus, ratio", "hardness", "source"), rows)
 
 
 def head_disk_table() -> str:
@@ -57,7 +59,7 @@ def head_disk_table() -> str:
             rows[-1][2] += f" {comment}"
         else:
             is_open = False
-    return grid(("key", "value", "where it comes from"), rows)
+    return in_prose(grid(("key", "value", "where it comes from"), rows))
 
 
 def _entry(section: str, code: str) -> tuple[str, str]:

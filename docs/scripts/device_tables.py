@@ -2,9 +2,26 @@
 
 from __future__ import annotations
 
+import re
+
 from validation_tables import grid
 
 from contactkit.models.library import bundled_scene
+from contactkit.plot.axis_units import in_print
+
+_UNIT = re.compile(
+    r"(?<=[\d.] )(u[mNs]|[mk]?Pa\.s|p?N\.m/rad|N\.m\.s/rad|N\.s/m|N/um|kg\.m2"
+    r"|[cm]?m[23]|degC|deg|mohm|ohm)(?![\w/])"
+)
+
+
+def in_prose(text: str) -> str:
+    """Text with the units behind its numbers in the letters of print: 5 um becomes 5 µm."""
+
+    def printed(match: re.Match[str]) -> str:
+        return in_print(match[1]).replace("ohm", "Ω").replace("/um", "/µm")
+
+    return _UNIT.sub(printed, text)
 
 
 def assumption_table(name: str) -> str:
@@ -29,4 +46,4 @@ def assumption_table(name: str) -> str:
                 rows.append([f"`{label}`", value.strip('"'), comment])
         elif comment and open_row:
             rows[-1][2] += f" {comment}"
-    return grid(("key", "value", "where it comes from"), rows)
+    return in_prose(grid(("key", "value", "where it comes from"), rows))

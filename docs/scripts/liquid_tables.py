@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Callable
 from typing import Any
 
+from device_tables import in_prose
 from validation_tables import grid
 
 import contactkit as ck
@@ -16,7 +17,7 @@ from contactkit.units import celsius, cSt
 
 def liquid_table() -> str:
     """Viscosity of the liquids of the library over temperature, surface tension, density."""
-    at = (-20.0, 0.0, 20.0, 40.0, 80.0, 100.0)
+    at = (-20.0, 20.0, 40.0, 100.0)
     rows = []
     for name in library_names("liquids.toml"):
         liquid = ck.load_liquid(name)
@@ -27,12 +28,13 @@ def liquid_table() -> str:
                 try:
                     cells.append(f"{liquid.at(celsius(degrees)).viscosity * 1e3:.4g}")  # type: ignore[operator]
                 except ck.ValidityWarning:
-                    cells.append("outside")
+                    cells.append("-")
         room = liquid.at(celsius(20.0))
-        more = f"{room.surface_tension * 1e3:.4g}", f"{room.density:.5g}"  # type: ignore[operator]
-        rows.append((f"`{name}`", *cells, *more))
-    head = [f"{degrees:g} °C" for degrees in at]
-    return grid(("liquid", *head, "surface tension [mN/m]", "density [kg/m³]"), rows)
+        more = f"{room.surface_tension * 1e3:.4g}", f"{room.density:.4g}"  # type: ignore[operator]
+        rows.append((f"`{name}`", ", ".join(cells), *more))
+    degrees = ", ".join(f"{one:g}" for one in at)
+    table = grid(("liquid", "mPa·s", "mN/m", "kg/m³"), rows)
+    return f"Viscosity at {degrees} °C; surface tension and density at 20 °C:\n\n{table}"
 
 
 def liquid_source_table() -> str:
@@ -42,8 +44,9 @@ def liquid_source_table() -> str:
         liquid = ck.load_liquid(name)
         viscosity = liquid.viscosity or liquid.kinematic_viscosity
         laws = (viscosity, liquid.density, liquid.surface_tension)
-        rows.append((f"`{name}`", f"{liquid.name}; {liquid.source}", *(one.source for one in laws)))  # type: ignore[union-attr]
-    return grid(("liquid", "what", "viscosity", "density", "surface tension"), rows)
+        sources = (in_prose(one.source) for one in laws)  # type: ignore[union-attr]
+        rows.append((f"`{name}`", *sources))
+    return grid(("liquid", "viscosity", "density", "surface tension"), rows)
 
 
 def law_table() -> str:

@@ -42,7 +42,7 @@ PAGES: Mapping[str, Page] = {
     ),
     "architecture": Page("img/architecture.png", 0.1, (("architecture.py",),)),
     "injector": Page(
-        "injector.md, hosts.md: delays, errors of steps", 2, (("injector", "--write"),)
+        "injector*.md, hosts.md: delays, errors of steps", 2, (("injector", "--write"),)
     ),
     "bridges": Page("bridges.md: errors of closures", 0.5, _measured("bridges")),
     "films": Page("img/: pictures of films.md", 0.5, (("film_pictures.py",),)),
@@ -55,12 +55,12 @@ PAGES: Mapping[str, Page] = {
     "adhesion": Page("adhesion.md: levels of a curve, and its picture", 5, _measured("adhesion")),
     "claims": Page("errata.md: statements of chapter 2", 3, _measured("claims")),
     "pictures": Page(
-        "img/: figures of shipped scenes and examples; head-disk.md, accuracy.md: head-disk",
+        "img/: figures of shipped scenes and examples; head-disk*.md, accuracy.md: head-disk",
         20,
         (("pictures.py",),),
     ),
     "sensitivity": Page(
-        "injector.md, micromirror.md, head-disk.md: tornado figures", 7, (("sensitivity.py",),)
+        "img/tornado-*; injector.md, micromirror.md: their tables", 7, (("sensitivity.py",),)
     ),
     "demands": Page("demands/: accuracy and cost, hard cases, effects", 12, (("demands",),)),
     "peers": Page(

@@ -61,16 +61,12 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
     },
     ("head-disk", "cost"): {"cost": "head-disk-cost"},
 }
-CURVES = {"wet-film-reported-only": "False", "wet-film-pulls-too": "True"}
-SELF_CONSISTENT = "effects.film-meniscus.self_consistent [-]"  # distinguishes them
+SELF_CONSISTENT = "effects.film-meniscus.self_consistent [-]"  # of two curves; the page has one
 COLUMNS = {  # of a load curve: heading and factor
-    "loading.pressure": ("mean pressure [MPa]", 1e-6),
-    "max_pressure": ("maximum pressure [GPa]", 1e-9),
-    "hardness": ("effective hardness [GPa]", 1e-9),
+    "loading.pressure": ("load [MPa]", 1e-6),
     "contact_fraction": ("contact [%]", 100.0),
     "plastic_fraction": ("plastic [%]", 100.0),
-    "max_displacement": ("maximum displacement [nm]", 1e9),
-    "relative_meniscus_force": ("meniscus force / load", 1.0),
+    "relative_meniscus_force": ("meniscus / load", 1.0),
 }
 COST_PICTURE = (
     "![Error of the pressure over seconds for three solvers; error of the area over the grid; "
@@ -98,19 +94,18 @@ def head_disk_numbers(scalars: Mapping[str, Mapping[str, float]]) -> str:
     """Numbers of the head-disk interface at the pressure of the scene."""
     rows = []
     for name, (label, factor, unit) in NUMBERS.items():
-        place = ""
+        value = f"{scalars[name]['value'] * factor:.4g} {unit}".strip()
         if f"{name}_depth" in scalars:
             depth, layer = (scalars[f"{name}_{what}"]["value"] for what in ("depth", "layer"))
-            place = f"{depth * 1e9:.3g} nm deep, layer {int(layer) + 1}"
-        value = f"{scalars[name]['value'] * factor:.4g}"
-        rows.append((label, f"{value} {unit}".strip(), place))
-    return grid(("what", "value", "where"), rows)
+            value += f", {depth * 1e9:.3g} nm deep, layer {int(layer) + 1}"
+        rows.append((label, value))
+    return grid(("what", "value"), rows)
 
 
-def load_curve(text: str, self_consistent: str) -> str:
-    """Load curve from the CSV file that the run wrote."""
+def load_curve(text: str) -> str:
+    """Load curve without the pull of the film, from the CSV file that the run wrote."""
     every = csv.DictReader(io.StringIO(text))
-    rows = [row for row in every if row[SELF_CONSISTENT] == self_consistent]
+    rows = [row for row in every if row[SELF_CONSISTENT] == "False"]
     found = {name: next(k for k in rows[0] if k.startswith(f"{name} [")) for name in COLUMNS}
     cells = [
         [f"{float(row[found[name]]) * factor:.3g}" for name, (_, factor) in COLUMNS.items()]
@@ -190,13 +185,9 @@ def blocks(command: str, folder: Path, printed: str) -> Mapping[str, str]:
     if command == "cost":
         table = cost_table((folder / "cost.csv").read_text("utf-8"))
         return {"head-disk cost": f"{COST_PICTURE}\n\n{table}"}
-    curves = {
-        f"head-disk load curve, {name}": load_curve(
-            (folder / "study.csv").read_text("utf-8"), value
-        )
-        for name, value in CURVES.items()
-    }
-    return {"head-disk numbers": head_disk_numbers(json.loads(printed)), **curves}
+    curve = load_curve((folder / "study.csv").read_text("utf-8"))
+    numbers = head_disk_numbers(json.loads(printed))
+    return {"head-disk numbers": numbers, "head-disk load curve": curve}
 
 
 def run_example(name: str, folder: Path) -> None:

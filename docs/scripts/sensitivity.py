@@ -2,7 +2,7 @@
 
 Sweeps the assumptions of the fuel injector, the micromirror and the head on the disk over the
 ranges of `models/*/assumptions.py`. Writes figures to
-``docs/img/``, every answer as CSV to ``docs/img/data/``, and the tables of the pages. Some minutes.
+``docs/img/``, every answer as CSV to ``docs/img/data/``, and tables where a page has them. Minutes.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from device_tables import in_prose
 from matplotlib.ticker import MaxNLocator, PercentFormatter
 from measured_blocks import write_blocks
 from PIL import Image
@@ -24,7 +25,6 @@ from contactkit.models.injector import assumptions as injector
 from contactkit.models.injector.delays import closing_lag, residual_gap, sticking_time
 from contactkit.models.micromirror import assumptions as micromirror
 from contactkit.models.micromirror.release import humidity_limit, voltage_needed
-from contactkit.plot.axis_units import in_print
 from contactkit.plot.style import save
 from contactkit.scene.description import value_text
 from contactkit.studies.sensitivity import Sensitivity
@@ -86,7 +86,7 @@ def _disk(answer: str) -> Case:
 
 
 def table(found: Sensitivity, names: Mapping[str, str]) -> str:
-    """Assumptions with their ranges, reasons, and the answers at both ends."""
+    """Assumptions with their ranges, and the answers at both ends."""
     swings = [one.swing(found.base) for one in found.influences if not one.has_gaps]
     least = SHOWN * max(swings)
 
@@ -97,17 +97,15 @@ def table(found: Sensitivity, names: Mapping[str, str]) -> str:
         (
             names[one.path],
             f"{value_text(one.values[0], one.unit)} ... {value_text(one.values[-1], one.unit)}",
-            text(one.results[0]),
-            text(one.results[-1]),
-            one.reason,
+            f"{text(one.results[0])} ... {text(one.results[-1])}",
         )
         for one in found.influences
         if one.swing(found.base) >= least
     ]
     rest = [names[one.path] for one in found.influences if one.swing(found.base) < least]
-    heads = ("assumption", "range", "answer at the low end", "at the high end", "reason")
     below = f"\n\nLess than {SHOWN:.0%} of the largest: {', '.join(rest)}." if rest else ""
-    return f"As it is: {text(found.base)}.\n\n{grid(heads, rows)}{below}"
+    table = grid(("assumption", "range", "answer"), rows)
+    return in_prose(f"As it is: {text(found.base)}.\n\n{table}{below}")
 
 
 def main() -> int:
@@ -129,10 +127,10 @@ def main() -> int:
         with Image.open(path) as figure:
             figure.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)
         found.save_csv(IMG / "data" / f"tornado-{name}")
-        blocks[f"tornado {name}"] = table(found, one.names).replace(" um", f" {in_print('um')}")
+        blocks[f"tornado {name}"] = table(found, one.names)
         sys.stdout.write(f"{found}\n\n")
-    missing = write_blocks(blocks)
-    sys.stdout.write(f"no page has: {', '.join(missing) or 'none missing'}\n")
+    drawn_alone = write_blocks(blocks)
+    sys.stdout.write(f"without a table: {', '.join(drawn_alone) or 'none'}\n")
     return 0
 
 

@@ -13,7 +13,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from api_pages import TOPICS, pages
+from api_pages import TOPICS, folded, pages
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
@@ -141,5 +141,14 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
             page.meta.setdefault("search", {"boost": boost})
             break
     if page.file.src_uri == "api/index.md":
-        return re.sub(r"`ck\.(\w+)`", r"[`ck.\1`][contactkit.\1]", markdown)
+        for topic in TOPICS:
+            markdown = markdown.replace(
+                f"| {topic.title} |", f"| [{topic.title}]({topic.page}.md) |"
+            )
+        return re.sub(r"`ck\.(\w+)`", r"[`\1`][contactkit.\1]", markdown)
     return markdown
+
+
+def on_page_content(html: str, page: Page, **_: Any) -> str:
+    """Fold the entries of the API."""
+    return folded(html) if page.file.src_uri.startswith("api/") else html

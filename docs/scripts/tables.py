@@ -10,7 +10,7 @@ from __future__ import annotations
 import inspect
 import re
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -41,7 +41,7 @@ from contactkit.contact.effects.base import (
     Observer,
     PressureBound,
 )
-from contactkit.fmu.framework.ports import Port
+from contactkit.fmu.framework.ports import Port, display_conversion
 from contactkit.fmu.framework.slave import PortSlave
 from contactkit.fmu.slaves.contact_stop import ContactStop
 from contactkit.fmu.slaves.deforming import DeformingForce, DeformingMass
@@ -68,6 +68,7 @@ from contactkit.models.injector.valve import DriveProfile, Spring, Stop
 from contactkit.models.micromirror.electrostatics import Electrode
 from contactkit.models.micromirror.mirror import Hinge, SpringTips, Waveform
 from contactkit.models.micromirror.scene import MirrorStudy
+from contactkit.plot.axis_units import in_print
 from contactkit.scene.interface import Body
 from contactkit.separation.effects.base import (
     CoupledEffect,
@@ -137,11 +138,11 @@ def default(field: attrs.Attribute[Any]) -> str:
     """Default value of a field, in words."""
     value = field.default
     if value is attrs.NOTHING:
-        return "must be given"
+        return "required"
     if isinstance(value, attrs.Factory):  # type: ignore[arg-type]
         return FACTORIES[value.factory]
     if value is None:
-        return "not given"
+        return ""
     if value in ("", ()):
         return "empty"
     if isinstance(value, bool):
@@ -152,13 +153,24 @@ def default(field: attrs.Attribute[Any]) -> str:
 
 
 def keys(kind: type) -> str:
-    """Keys of a table in a file: the fields of a class."""
+    """Keys of a table in a file; neighbouring fields that mean the same share a row."""
     texts, rows = descriptions(kind), []
     for field in (one for one in attrs.fields(kind) if one.name[0] != "_"):
-        unit = field.metadata.get("unit", "")
-        text = re.sub(r" \[[^]]{1,10}\]", "", texts[field.name])
-        rows.append((f"`{field.alias}`", unit, default(field), text))
-    return grid(("key", "unit", "default", "meaning"), rows)
+        text = re.sub(r" \[[^]]{1,10}\]", "", texts[field.name]).replace(" degC", " °C")
+        name, rest = f"`{field.alias}`", (default(field), _with_unit(text, field))
+        if rows and rows[-1][1:] == rest:
+            name = f"{rows.pop()[0]}, {name}"
+        rows.append((name, *rest))
+    return grid(("key", "default", "meaning"), rows)
+
+
+def _with_unit(text: str, field: attrs.Attribute[Any]) -> str:
+    """Meaning of a field with its unit at the end of the first sentence."""
+    unit = field.metadata.get("unit", "-")
+    end = re.search(r"\.(?= |$)", text)
+    if unit == "-" or end is None:
+        return text
+    return f"{text[: end.start()]} [{unit}]{text[end.start() :]}"
 
 
 def named(kinds: Iterable[tuple[str, type]], tag: str) -> str:
@@ -195,19 +207,61 @@ def effect_table(kinds: Iterable[type[Effect]]) -> str:
     )
 
 
-def ports(table: Sequence[Port], causality: str) -> str:
-    """Variables of an FMU of one causality."""
-    head = ["name", "unit", "shown in", "meaning"]
-    head[3:3] = [] if causality == "output" else ["start", "must"]
+def _amount(port: Port) -> str:
+    """Start value of a port, in the unit that tools show."""
+    if port.enumeration:
+        return f"{port.enumeration(port.start).name}"
+    if port.kind == "integer":
+        return f"{port.start:d}"
+    unit = port.display_unit or port.unit
+    factor = display_conversion(port.unit, unit).factor if port.display_unit else 1.0
+    return f"{port.start * factor:.4g} {in_print(unit)}".removesuffix(" -").replace(" °", "°")
+
+
+def _range(port: Port) -> str:
+    """Values that a port allows."""
+    if port.enumeration is not None:
+        return ", ".join(f"{int(m)} {m.name}" for m in port.enumeration)
+    above, below = (">", "<") if port.exclusive else ("≥", "≤")
+    bounds = [f"{above} {port.minimum:g}"] if port.minimum is not None else []
+    whole = port.kind == "integer"
+    bounds += [f"{below} {port.maximum:.{9 if whole else 4}g}"] if port.maximum is not None else []
+    return ", ".join(["whole"] * whole + bounds)
+
+
+def ports(table: Iterable[Port]) -> str:
+    """Variables of an FMU: outputs by name and meaning, others with start and range."""
     rows = []
-    for port in (p for p in table if p.causality == causality):
-        start = port.enumeration(port.start).name if port.enumeration else f"{port.start:g}"
-        row = [f"`{port.name}`", port.unit, port.display_unit or "", port.label]
-        row[3:3] = [] if causality == "output" else [start, port.expectation]
-        if causality == "output" and port.enumeration is not None:
-            row[-1] += ": " + ", ".join(f"{int(m)} {m.name}" for m in port.enumeration)
-        rows.append(row)
-    return grid(head, rows)
+    shown = list(table)
+    has_start = any(port.causality != "output" for port in shown)
+    for port in shown:
+        unit = "" if port.unit == "-" else f" [{in_print(port.unit)}]"
+        allowed = _range(port) if has_start or port.enumeration is not None else ""
+        start = (_amount(port),) if has_start else ()
+        meaning = f"{port.label}{unit}{f': {allowed}' if allowed else ''}"
+        rows.append((f"`{port.name}`", *start, meaning))
+    return grid(("name", "start", "meaning") if has_start else ("name", "meaning"), rows)
+
+
+PAIRS_OF_FMUS = (("film", "stiction"), ("deforming", "deforming"))
+
+
+def port_tables() -> dict[str, Callable[[], str]]:
+    """Variables of each FMU; parameters that a pair of FMUs shares stand in one table."""
+    found, left = {}, {}
+    for name, model in FMUS.items():
+        for causality in ("input", "output", "parameter"):
+            left[f"{name} {causality}s"] = [p for p in model.ports if p.causality == causality]
+    for label, pair in PAIRS_OF_FMUS:
+        both = [f"{pair}-{what} parameters" for what in ("mass", "force")]
+        common = [port for port in left[both[0]] if port in left[both[1]]]
+        for key in both:
+            left[key] = [port for port in left[key] if port not in common]
+        left[f"{label} parameters"] = common
+    for key, listed in left.items():
+        if listed:
+            found[key] = partial(ports, listed)
+    return found
 
 
 TABLES: Mapping[str, Callable[[], str]] = {
@@ -256,11 +310,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "mirror study": lambda: keys(MirrorStudy),
     "liquids": liquid_table,
     "liquid sources": liquid_source_table,
-    **{
-        f"{name} {causality}s": partial(ports, model.ports, causality)
-        for name, model in FMUS.items()
-        for causality in ("input", "output", "parameter")
-    },
+    **port_tables(),
     "errata": errata_table,
     "nano": nano_table,
     "division": division_table,

@@ -29,7 +29,7 @@ print(f"maximum pressure {dry.peak_pressure / GPa:.3f} GPa")
 # %% [markdown]
 # ## Describe the scene
 #
-# The lower body is a stack: 8 um of carbon on steel. The upper one is a rigid ball; a paraboloid
+# The lower body is a stack: 8 µm of carbon on steel. The upper one is a rigid ball; a paraboloid
 # is the shape for which Hertz's result is exact.
 
 # %%
@@ -159,7 +159,3 @@ plt.show()
 # - Measures other than von Mises: `maxima` also has the largest tension, which cracks a coating.
 # - A soft interlayer: a second `ck.Layer` between carbon and steel.
 # - A rough surface in place of the ball: [own height map](height-map.md).
-# - Many thicknesses and loads at once: [sweep](sweep.md).
-#
-# The equations: [physics](../physics.md). The accuracy of layered contacts:
-# [accuracy](../accuracy.md).

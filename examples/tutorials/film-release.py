@@ -11,7 +11,7 @@ decides: the viscosity, or the tension at which oil cavitates?
 # ## Describe the scene
 #
 # The faces are two flats of 3.2 mm radius. The film fills the whole gap at the start, and the
-# force of the magnet acts on a mass of 20 g until the gap is 25 um.
+# force of the magnet acts on a mass of 20 g until the gap is 25 µm.
 
 # %%
 import math
@@ -82,14 +82,6 @@ print(f"cavitates at 10 bar  {1e3 * result.state.release_time:7.3f} ms")
 print(f"never cavitates      {1e3 * held.state.release_time:7.3f} ms")
 
 # %% [markdown]
-# Without the limit there is a closed form for a massless spool, which the simulation must nearly
-# meet: 20 g are little against this film.
-
-# %%
-closed = held.of(ck.ViscousForce).time_at_constant_force()
-print(f"closed form without mass {1e3 * closed:.3f} ms")
-
-# %% [markdown]
 # ## How much later in the cold?
 #
 # The library knows the viscosity of the oil over temperature. Both extremes are run from
@@ -138,21 +130,13 @@ for number in result.validity:
         print(number)
 
 # %% [markdown]
-# Both say that the receding rim of the film is not smooth at this speed: the small capillary
-# force is uncertain, the viscous force is not. For the release time it does not matter:
-
-# %%
-without = evolve(scene, effects=(ck.ViscousForce(), ck.TensionLimit(strength=1e6)))
-change = ck.simulate(ck.plan(without)).state.release_time / result.state.release_time
-print(f"without the capillary force: {change - 1:+.2%}")
-
-# %% [markdown]
+# Both say that the receding rim is not smooth at this speed: the small capillary force is
+# uncertain, the viscous force is not.
+#
 # ## What to change next
 #
-# - `initial_gap=1 * um` (and the volume with it): a film five times thinner.
 # - `strength=5e6`: what a better assumption about the oil would change.
 # - `rise_time=0.2e-3` in `ImposedForce`: a magnet that needs time.
-# - Put the film beside your own equations: [own ODE with the film](own-ode.md).
+# - Your own equations with this film: [own ODE with the film](own-ode.md).
 #
-# The whole injector, with magnet, spring and end stop: [fuel injector](../injector.md). The
-# equations: [films on faces](../films.md) and [physics](../physics.md).
+# The whole injector, with magnet, spring and end stop: [fuel injector](../injector.md).

@@ -31,8 +31,8 @@ scene = ck.SeparationScene(
 #
 # ## Readings
 #
-# Here they are made by the closed form, so that the answer is known: 0.4 Pa.s, a gap that was zeroed
-# 1.5 um too early, a load that reads 2 uN too much, 1 uN of noise. Yours come from
+# Here they are made by the closed form, so that the answer is known: 0.4 Pa·s, a gap that was zeroed
+# 1.5 µm too early, a load that reads 2 µN too much, 1 µN of noise. Yours come from
 # `ck.read_measured_curve("pull.csv", over="gap", quantity="pull")`, from a data frame, or, of an
 # atomic force microscope, from `ck.read_force_curve("tip.jpk-force")`.
 
@@ -99,33 +99,11 @@ known = ck.fit(scene, curve, sought | {radius: ck.Prior("2 mm", "1 %", "micromet
 print(known.table())
 
 # %% [markdown]
-# ## Is the shift needed?
-#
-# Two models, the same data: the information criterion compares them.
-
-# %%
-plain = ck.MeasuredCurve(
-    over="gap",
-    at=curve.at,
-    quantity="viscous_force",
-    values=curve.values,
-    units=curve.units,
-    zero=curve.zero,
-)
-unshifted = ck.fit(scene, plain, sought)
-print(ck.compare_fits({"shifted gap": found, "gap as read": unshifted}))
-print(unshifted.message)
-
-# %% [markdown]
-# The status of the second is `misfit`: neighbouring residuals agree more than noise would, whatever
-# its size.
-#
 # ## What to change next
 #
 # - `found.scene` is the fitted scene: run it, export it, `print(found.to_toml())`.
-# - `found.profile("viscosity").plot.rise()` draws the profile likelihood, `found.sample()` a
-#   posterior.
-# - Several curves at once, each with `sets={"loading.speed": "20 um/s"}`.
-# - `found.save("fit.npz")`, `ck.read_fit("fit.npz")`; from a shell `contactkit fit SCENE --data ...`.
+# - Leave out `shift`: `ck.compare_fits` says whether the data ask for it.
+# - `found.profile("viscosity").plot.rise()` draws the profile likelihood.
+# - Several curves at once, each with `sets={"loading.speed": "20 µm/s"}`.
 #
 # All of it: [fit measured curves](../how-to/fit.md).

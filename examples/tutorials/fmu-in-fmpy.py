@@ -10,7 +10,7 @@ communication step costs in accuracy.
 #
 # ## Build it from a scene
 #
-# A mass of 20 g held by 20 um of oil, pulled by 10 N. Its values become the start values of the FMU,
+# A mass of 20 g held by 20 µm of oil, pulled by 10 N. Its values become the start values of the FMU,
 # so that it runs as it is. This needs the extra `fmu`.
 
 # %%
@@ -44,19 +44,6 @@ print(fmu.name, "findings of the check:", validate(fmu))
 # On the command line the same is `contactkit fmu build film.toml --out film.fmu`; with `--native` it
 # needs no Python on the host.
 #
-# ## What is inside?
-#
-# The description lists every variable with its unit. The interface is small: pull in, motion out.
-
-# %%
-description = fmpy.read_model_description(str(fmu))
-print("FMI", description.fmiVersion, description.modelName)
-for variable in description.modelVariables:
-    if variable.causality == "input" or variable.name in ("h", "v", "F", "t_release"):
-        unit = variable.unit or "-"
-        print(f"{variable.causality:7s} {variable.name:10s} [{unit}]")
-
-# %% [markdown]
 # ## Run it alone
 #
 # fmpy sets the pull and steps the FMU. It does not raise when a step is discarded, so compare its
@@ -174,7 +161,6 @@ plt.show()
 #
 # ## What to change next
 #
-# - `contactkit fmu build film.toml --native --fmi 3 --out film.fmu`: no Python on the host.
 # - `stiction-force`, if the other tool must own the mass: read [coupling](../coupling.md) first.
 # - Put it into another tool: [export to other tools](../how-to/export-fmu.md).
 #

@@ -9,7 +9,7 @@ steel yield?
 # ## A map
 #
 # Yours would come from a file: `heights = np.load("scan.npy")`. Here a ground surface with scratches
-# along y is made up, 40 um wide, with 128 x 128 pixels. Heights are in metres, peaks up, `[y, x]`.
+# along y is made up, 40 µm wide, with 128 x 128 pixels. Heights are in metres, peaks up, `[y, x]`.
 
 # %%
 import warnings
@@ -124,8 +124,5 @@ with warnings.catch_warnings():
 #
 # - `periodic=False`: an isolated patch, when the map does not repeat.
 # - A coated solid: `ck.Stack(layers=(ck.Layer(material=..., thickness=...),), substrate=steel)`.
-# - Files of instruments, tilt and holes: [use a measured surface](../how-to/measured-surface.md).
-# - A whole scene with two bodies and friction: [coated sphere](coated-sphere.md).
-#
-# The equations: [physics](../physics.md). The area against theories:
-# [validation](../validation.md).
+# - Files of instruments, tilt and holes: [measured surfaces](../how-to/surfaces.md).
+# - Two bodies and friction: [coated sphere](coated-sphere.md).

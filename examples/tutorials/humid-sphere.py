@@ -10,9 +10,8 @@ force, at which distance does the water bridge break, and does dry air help?
 #
 # ## Describe the scene
 #
-# All numbers are in SI units and radians; `contactkit.units` has the factors. This sphere is
-# smaller than what the continuum models are made for, and contactkit will warn about that; we
-# silence the warnings here and read them below.
+# All numbers are in SI units and radians. This sphere is smaller than what continuum models are
+# made for: we silence the warnings here and read them below.
 
 # %%
 import warnings
@@ -40,7 +39,7 @@ water = ck.Meniscus(
 tip = ck.Sphere(radius=100 * nm)
 
 # %% [markdown]
-# The sphere is pulled off at 1 um/s. Two effects are simulated: the force of the meniscus, and
+# The sphere is pulled off at 1 µm/s. Two effects are simulated: the force of the meniscus, and
 # the van der Waals force of the solids. What is not listed is not computed.
 
 # %%
@@ -49,18 +48,16 @@ scene = ck.SeparationScene(
     loading=ck.ImposedSpeed(initial_gap=0.3 * nm, final_gap=5 * nm, speed=1 * um),
     effects=(ck.MeniscusForce(), ck.VanDerWaalsForce(hamaker_constant=1e-19)),
 )
-print(scene)
 
 # %% [markdown]
 # ## Plan and run
 #
-# A plan is the checked scene. It already knows where the water bridge loses its stability, and
-# which publications its equations come from.
+# A plan is the checked scene. It already knows where the water bridge loses its stability;
+# `plan.cite()` gives the sources of its equations.
 
 # %%
 plan = ck.plan(scene)
 print(str(plan).splitlines()[-1].strip())
-print(plan.cite())
 
 # %%
 result = ck.simulate(plan)
@@ -70,8 +67,7 @@ print(f"van der Waals at the start {result['van_der_waals_force'][0] / 1e-9:6.2f
 print(f"peak of both together      {result.scalars()['peak_force'][0] / 1e-9:6.2f} nN")
 
 # %% [markdown]
-# The meniscus is the larger part of the force, and it acts over a nanometre. Every result can
-# draw itself; `result.plot` lists what it offers.
+# The meniscus is the larger part of the force, and it acts over a nanometre.
 
 # %%
 figure, ax = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
@@ -143,9 +139,8 @@ for radius, force in zip(radii, exact, strict=True):
 #
 # ## What to change next
 #
-# - Set `contact_angle_upper=100 * deg`, a hydrophobic coating of the tip: the force drops.
-# - Replace `relative_humidity=0.5` by `volume=1e-24`: a drop of fixed size holds farther out.
-# - Add `AsperityMenisci` for a rough face with many small menisci.
+# - `contact_angle_upper=100 * deg`, a hydrophobic coating of the tip: the force drops.
+# - `volume=1e-24` in place of the humidity: a drop of fixed size holds farther out.
+# - `AsperityMenisci`: a rough face with many small menisci.
 #
-# Where the equations are explained: [liquid bridges](../bridges.md) and
-# [physics](../physics.md).
+# The equations: [liquid bridges](../bridges.md).

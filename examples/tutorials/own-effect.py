@@ -79,7 +79,7 @@ ck.register(ResidualMagnetism)
 #
 # ## Use it
 #
-# An armature of 5 g, 10 um of oil at room temperature, a spring that opens with 12 N.
+# An armature of 5 g, 10 µm of oil at room temperature, a spring that opens with 12 N.
 
 # %%
 face = ck.Flat(radius=2 * mm)
@@ -128,19 +128,8 @@ right.set_title("Forces", loc="left")
 plt.show()
 
 # %% [markdown]
-# The own force is in the figure like the others. A check that needs no trust: its impulse is the integral of
-# the function above along the motion.
-
-# %%
-force = magnetic_force(result.gap, 8.0, 50 * um)
-integral = float(
-    ((force[1:] + force[:-1]) / 2 * (result.time[1:] - result.time[:-1])).sum()
-)
-print(
-    f"impulse by the trapezoidal rule over the curve: {integral / own.impulse:.3f} of the result"
-)
-
-# %% [markdown]
+# The own force is in the figure like the others.
+#
 # ## In files
 #
 # Scenes with the effect are saved and loaded. A program that has not registered it gets an error that names it.
@@ -157,8 +146,5 @@ with tempfile.TemporaryDirectory() as folder:
 #
 # - A wrong value, `closed_force=-8.0`: the message names field, value and unit.
 # - `lacks(self, scene)`: what a scene must have for your force.
-# - Give your package the entry point `contactkit.effects`, and no one has to call `register`:
+# - An entry point of your package, and no one has to call `register`:
 #   [own effect](../how-to/own-effect.md).
-#
-# Every hook of the class: `CONTRIBUTING.md` of the repository; where it is called:
-# [architecture](../architecture.md).

@@ -12,9 +12,6 @@ study runs all combinations and keeps the results in order.
 # same surface on any grid.
 
 # %%
-import tempfile
-from pathlib import Path
-
 import matplotlib.pyplot as plt
 
 import contactkit as ck
@@ -106,26 +103,10 @@ ax.legend(frameon=False, loc="upper left")
 plt.show()
 
 # %% [markdown]
-# ## Interrupt and go on
-#
-# With `store=` every finished point is a file. The second call reads them and solves nothing that is
-# already there, also after a crash or with more values.
-
-# %%
-with tempfile.TemporaryDirectory() as folder:
-    for _ in range(2):
-        again = ck.study(scene, varied, accuracy, store=folder)
-        print(len(list(Path(folder).rglob("*.json"))), "points in the folder")
-same = (again.column("contact_fraction") == study.column("contact_fraction")).all()
-print("the same numbers:", bool(same))
-
-# %% [markdown]
 # ## What to change next
 #
 # - `workers=4`: points on four processes of this machine.
-# - `study.save_csv("study.csv")` for a spreadsheet, `study.to_dataframe()` for pandas.
+# - `store="points"`: an interrupted study goes on where it was.
 # - The same from a file: `contactkit study SCENE --out DIR`.
-# - Another field: every key that a scene file may hold can be varied.
 #
-# All of it: [studies](../guide/studies.md). How surfaces are described:
-# [surfaces](../guide/surfaces.md).
+# All of it: [studies](../how-to/studies.md).

@@ -41,7 +41,7 @@ from .film import FINE, moving, prepared_film
 from .models import native_model
 from .page import native_page
 from .ports import Model, check_free, native_ports
-from .records import Bodies, Faces, FilmTables
+from .records import Bodies, Faces, FilmTables, LiquidTable
 from .sources import kernel_sources, layout
 
 __all__ = [
@@ -125,13 +125,13 @@ def build_native(
         given.setdefault("h", given["h0"])
     scene = moving(scene, mass)
     film = prepared_film(scene, FINE if film_rtol is None else evolve(FINE, film_rtol=film_rtol))
-    ports = native_ports(film.prepared, film.lowest, model, film.force)
+    ports = native_ports(film.prepared, film.lowest, model, film.force, film.liquid)
     values: dict[str, Value] = {port.name: port.read(port.start) for port in ports}
     check_free(ports, model, given)
     values |= {name: start_value(ports, name, value) for name, value in given.items()}
     native_model(model).slave.check_start(values)
     about = native_about(model, ports, values, f" ({scene.name})" if scene.name else "")
-    content = NativeContent(film.tables, scene=scene)
+    content = NativeContent(film.tables, liquid=film.liquid, scene=scene)
     return write_native(model, about, content, place, fmi, chosen_platforms(platforms), compiler)
 
 
@@ -152,7 +152,7 @@ def _deforming(
     native_model(name).slave.check_start(values)
     of = f" of {scene.name}" if scene.name else ""
     about = native_about(name, ports, values, f"{of}; {film.exactness.text}")
-    return about, NativeContent(bodies=film.bodies, scene=scene)
+    return about, NativeContent(bodies=film.bodies, liquid=film.liquid, scene=scene)
 
 
 def _scene_mass(scene: SeparationScene, given: Mapping[str, Value | str]) -> float:
@@ -207,6 +207,7 @@ class NativeContent(NamedTuple):
     tables: FilmTables | None = None
     faces: Faces | None = None
     bodies: Bodies | None = None
+    liquid: LiquidTable | None = None
     scene: SeparationScene | None = None
     """For the documentation."""
 
@@ -237,7 +238,8 @@ def write_native(
     """
     ports, values = about.ports, about.start
     sources = kernel_sources(fmi) | fmi_headers(fmi)
-    made = contents_of(model, ports, values, content.tables, content.faces, content.bodies)
+    records = content.tables, content.faces, content.bodies, content.liquid
+    made = contents_of(model, ports, values, *records)
     numbers = made.numbers()
     guid = guid_of(sources, numbers, ports)
     more = about.summary if content.bodies else ""

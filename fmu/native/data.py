@@ -13,7 +13,7 @@ from attrs import frozen
 from ..framework.ports import Port, Value
 from .models import MODELS, VARIABLES, native_model
 from .record import Record, maybe, real, several, whole
-from .records import Bodies, Faces, FilmTables
+from .records import Bodies, Faces, FilmTables, LiquidTable
 
 __all__ = [
     "CAUSALITIES",
@@ -56,6 +56,7 @@ class Contents(Record):
     tables: FilmTables | None = maybe(FilmTables, "film of a scene, or of a tip")
     faces: Faces | None = maybe(Faces, "rough faces of an end stop, or of the site of a tip")
     bodies: Bodies | None = maybe(Bodies, "bodies that deform, with their film")
+    liquid: LiquidTable | None = maybe(LiquidTable, "over T, where that is a variable")
 
 
 def contents_of(
@@ -65,6 +66,7 @@ def contents_of(
     tables: FilmTables | None = None,
     faces: Faces | None = None,
     bodies: Bodies | None = None,
+    liquid: LiquidTable | None = None,
 ) -> Contents:
     """Contents of the file of an FMU.
 
@@ -76,7 +78,14 @@ def contents_of(
     native_model(model).check(tables, faces, bodies)
     variables = tuple(_variable(port, start[port.name]) for port in ports)
     number = [*MODELS].index(model)
-    return Contents(model=number, variables=variables, tables=tables, faces=faces, bodies=bodies)
+    return Contents(
+        model=number,
+        variables=variables,
+        tables=tables,
+        faces=faces,
+        bodies=bodies,
+        liquid=liquid,
+    )
 
 
 def _variable(port: Port, start: Value) -> Variable:

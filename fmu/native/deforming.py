@@ -27,9 +27,10 @@ from ...separation.effects.meniscus import MeniscusForce
 from ...separation.plan import plan
 from ...units import quantity_text
 from ..framework.ports import STEP_LIMIT, TOLERANCE, Port, Value
-from .film import FINE
+from .film import FINE, liquid_over_temperature
 from .models import native_model
-from .records import Bodies, Matrix, RingCavity, Rings, Series
+from .ports import with_temperature
+from .records import Bodies, LiquidTable, Matrix, RingCavity, Rings, Series
 from .tables import tabulate
 
 __all__ = [
@@ -107,6 +108,8 @@ class DeformingFilm(NamedTuple):
     bodies: Bodies
     exactness: Exactness
     plan: DeformingPlan
+    liquid: LiquidTable | None = None
+    """Laws of the liquid over the temperature, where that is a variable."""
 
 
 def exactness_of(
@@ -156,7 +159,7 @@ def deforming_film(
         series=_series(scene, film.viscosity) if exactness.film == "series" else None,
         rings=rings,
     )
-    return DeformingFilm(bodies, exactness, made)
+    return DeformingFilm(bodies, exactness, made, liquid_over_temperature(scene, ("viscosity",)))
 
 
 def _planned(scene: SeparationScene) -> tuple[DeformingPlan, float | None]:
@@ -317,7 +320,7 @@ def free_ports(film: DeformingFilm, model: str) -> tuple[Port, ...]:
     }
     return tuple(
         _within(evolve(port, start=starts.get(port.name, port.start)), gap, on_rings=on_rings)
-        for port in native_model(model).ports
+        for port in with_temperature(native_model(model).ports, film.liquid, made.scene)
     )
 
 

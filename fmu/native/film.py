@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import NamedTuple
 
 from attrs import evolve
 
 from ...accuracy import Accuracy
 from ...errors import ConvergenceError, DescriptionError, PlanError
+from ...liquids.temperature_table import liquid_table
 from ...scene.loading import ImposedForce
 from ...scene.scenes import SeparationScene
 from ...separation.effects.base import FilmEnd, SeparationForce
@@ -19,10 +20,18 @@ from ...separation.effects.prepared import PreparedScene, with_fraction
 from ...separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce, viscous_film
 from ...separation.face.shape import on_face
 from ...separation.plan import Plan, plan
-from .records import Film, FilmTables, Grid, Law, Rate, Scale, Table
+from .records import Film, FilmTables, Grid, Law, LiquidTable, Rate, Scale, Table
 from .tables import Tabulate, tabulate
 
-__all__ = ["FINE", "PreparedFilm", "can_cavitate", "free_liquid", "moving", "prepared_film"]
+__all__ = [
+    "FINE",
+    "PreparedFilm",
+    "can_cavitate",
+    "free_liquid",
+    "liquid_over_temperature",
+    "moving",
+    "prepared_film",
+]
 
 FINE = Accuracy(time_rtol=1e-11)
 """Accuracy of the laws behind the tables; their splines are 100 times finer than by default."""
@@ -45,6 +54,8 @@ class PreparedFilm(NamedTuple):
     force: float
     """Static force at the start [N], or 0."""
     prepared: PreparedScene[SeparationScene]
+    liquid: LiquidTable | None = None
+    """Laws of the liquid over the temperature, where that is a variable."""
 
 
 def moving(scene: SeparationScene, mass: float | None) -> SeparationScene:
@@ -96,6 +107,28 @@ def free_liquid(prepared: PreparedScene[SeparationScene]) -> FreeLiquid:
     return FreeLiquid(viscosity, tension)
 
 
+def liquid_over_temperature(scene: SeparationScene, free: Collection[str]) -> LiquidTable | None:
+    """Laws of a liquid, where all that follows from the temperature of a scene is in `free`.
+
+    The vapour of a meniscus, a strength that is the vapour pressure, and forces that are not
+    proportional to what they read of the liquid depend on the temperature in other ways: None.
+    """
+    needs = {name for effect in scene.effects for name in effect.liquid_needs(scene)}
+    limit = scene.effect(TensionLimit)
+    by_vapour = limit is not None and "vapour" in (limit.strength, limit.cavity_pressure)
+    if needs - {*free} or by_vapour or scene.meniscus.relative_humidity is not None:
+        return None
+    table = liquid_table(scene.meniscus.liquid)
+    if table is None or not table.low <= scene.temperature <= table.high:
+        return None
+    logs = {name: tuple(table.logs.get(name, ())) for name in ("viscosity", "surface_tension")}
+    count = max(map(len, logs.values()))
+    if not count:
+        return None
+    logs = {name: values or (0.0,) * count for name, values in logs.items()}
+    return LiquidTable(low=table.low, high=table.high, **logs)
+
+
 def prepared_film(
     scene: SeparationScene, accuracy: Accuracy = FINE, make: Tabulate = tabulate
 ) -> PreparedFilm:
@@ -125,7 +158,9 @@ def prepared_film(
         grid=_grid(common),
     )
     force = made.film.static_force(loading.initial_gap)
-    return PreparedFilm(tables, common.lowest, force, made.prepared)
+    free = {name for name, value in common.free._asdict().items() if value}
+    liquid = liquid_over_temperature(scene, free)
+    return PreparedFilm(tables, common.lowest, force, made.prepared, liquid)
 
 
 class _Common(NamedTuple):

@@ -24,7 +24,30 @@ from ..slaves.tip_contact import TipContact
 from ..slaves.valve_drive import ValveDrive
 from .records import Bodies, Faces, FilmTables
 
-__all__ = ["DISCRETE", "MODELS", "NativeModel", "VARIABLES", "enumerations", "native_model"]
+__all__ = [
+    "DISCRETE",
+    "MODELS",
+    "TEMPERATURE",
+    "NativeModel",
+    "VARIABLES",
+    "enumerations",
+    "native_model",
+]
+
+
+TEMPERATURE = Port(
+    "T",
+    "K",
+    causality="parameter",
+    label="temperature of the liquid; eta and gamma follow its laws where this is changed",
+    start=293.15,
+    minimum=0.0,
+    exclusive=True,
+    display_unit="degC",
+    nominal=300.0,
+    group="liquid",
+)
+"""Variable of a film whose liquid has laws over the temperature."""
 
 
 @frozen(kw_only=True)
@@ -40,6 +63,9 @@ class NativeModel:
     deforms: bool = False
     """Whether it has bodies that deform, with a film of their own."""
 
+    takes_temperature: bool = False
+    """Whether its liquid may follow its laws over the temperature."""
+
     @property
     def identifier(self) -> str:
         """Name of its library, so that a host may load several."""
@@ -48,7 +74,8 @@ class NativeModel:
     @property
     def ports(self) -> tuple[Port, ...]:
         """Variables that it may have."""
-        return tuple(port for port in self.slave.ports if not port.tabulated)
+        more = (TEMPERATURE,) if self.takes_temperature else ()
+        return *(port for port in self.slave.ports if not port.tabulated), *more
 
     def check(
         self, tables: FilmTables | None, faces: Faces | None, bodies: Bodies | None = None
@@ -80,12 +107,14 @@ _ALL = (
         slave=StictionMass,
         summary=StictionMass.summary,
         has_film=True,
+        takes_temperature=True,
     ),
     NativeModel(
         name="stiction-force",
         slave=StictionForce,
         summary="Liquid film between two bodies: forces, impulses and doubts of coupling",
         has_film=True,
+        takes_temperature=True,
     ),
     NativeModel(
         name="valve-drive",
@@ -114,6 +143,7 @@ _ALL = (
         summary=DeformingMass.summary,
         has_film=False,
         deforms=True,
+        takes_temperature=True,
     ),
     NativeModel(
         name="deforming-force",
@@ -121,6 +151,7 @@ _ALL = (
         summary=DeformingForce.summary,
         has_film=False,
         deforms=True,
+        takes_temperature=True,
     ),
 )
 MODELS: Mapping[str, NativeModel] = {model.name: model for model in _ALL}

@@ -7,7 +7,7 @@ menisci are in the tables, so they are no variables here.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Literal
 
 from attrs import evolve
@@ -23,9 +23,10 @@ from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
 from ..slaves.stiction_mass import PLACES
 from ..slaves.tension import TENSIONS, tension_values
 from .film import can_cavitate, free_liquid
-from .models import native_model
+from .models import TEMPERATURE, native_model
+from .records import LiquidTable
 
-__all__ = ["Model", "check_free", "native_ports", "start_of"]
+__all__ = ["Model", "check_free", "native_ports", "start_of", "with_temperature"]
 
 Model = Literal["stiction-mass", "stiction-force"]
 """Models of the film of any scene."""
@@ -53,9 +54,13 @@ def native_ports(
     lowest: float,
     model: Model = "stiction-mass",
     force: float = 0.0,
+    liquid: LiquidTable | None = None,
 ) -> tuple[Port, ...]:
-    """Variables of the FMU of a scene whose tables begin at a gap [m], with a typical force [N]."""
-    own = native_model(model).ports
+    """Variables of the FMU of a scene whose tables begin at a gap [m], with a typical force [N].
+
+    The temperature is one if the FMU has the laws of the liquid.
+    """
+    own = with_temperature(native_model(model).ports, liquid, prepared.scene)
     there = {port.name for port in own} - _absent(prepared, model)
     start = start_of(prepared, model) | {STEP_LIMIT: NATIVE_STEPS}
     sizes = _sizes(prepared.scene, abs(force))
@@ -75,6 +80,22 @@ def native_ports(
         )
         ports.append(_bounded(port, prepared.scene, lowest, model))
     return tuple(ports)
+
+
+def with_temperature(
+    ports: Iterable[Port], liquid: LiquidTable | None, scene: SeparationScene
+) -> tuple[Port, ...]:
+    """Variables with the temperature as the laws of the liquid bound it; without it if None."""
+    rest = tuple(port for port in ports if port.name != TEMPERATURE.name)
+    if liquid is None:
+        return rest
+    return *rest, evolve(
+        TEMPERATURE,
+        start=scene.temperature,
+        minimum=liquid.low,
+        maximum=liquid.high,
+        exclusive=False,
+    )
 
 
 def _sizes(scene: SeparationScene, force: float) -> dict[str, float]:
@@ -150,4 +171,12 @@ def check_free(ports: tuple[Port, ...], model: Model, given: Mapping[str, Value 
                 value,
                 f"be left out: in a native {model} of this scene it is no variable",
                 hint="change the scene, whose geometry, liquid and laws are in the tables",
+            )
+        if name == TEMPERATURE.name and name not in free:
+            raise DescriptionError(
+                name,
+                value,
+                "be left out: the FMU has no laws of this liquid over the temperature",
+                hint="take a liquid with laws, and effects that are proportional to its viscosity "
+                "or its surface tension, without vapour; or build it at this temperature",
             )

@@ -32,6 +32,7 @@ __all__ = [
     "FilmTables",
     "Grid",
     "Law",
+    "LiquidTable",
     "Matrix",
     "Onset",
     "Piece",
@@ -183,6 +184,17 @@ class FilmTables(Record):
     rewetting: float = real("fraction of the volume that is there after a rupture [-]", 0.0, 1.0)
     films: tuple[Film, ...] = several(Film, "as given, and re-wetted", most=2, least=1)
     grid: Grid | None = maybe(Grid, "of a film that cavitates on a face that is no disc")
+
+
+@frozen(kw_only=True)
+class LiquidTable(Record):
+    """Logarithms of the properties of a liquid at equally spaced temperatures; 0 if it has none."""
+
+    low: float = positive("lowest temperature [K]")
+    high: float = positive("highest temperature [K]")
+    viscosity: tuple[float, ...] = column("ln of the viscosity over 1 Pa.s")
+    surface_tension: tuple[float, ...] = column("ln of the surface tension over 1 N/m")
+    checked: ClassVar[bool] = True
 
 
 @frozen(kw_only=True)

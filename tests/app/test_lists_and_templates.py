@@ -86,3 +86,49 @@ def test_check_reports_every_mistake_and_runs_nothing(tmp_path, capsys):
     said = capsys.readouterr().err
     assert len(re.findall(r", line \d+", said)) == 2
     assert sorted(tmp_path.iterdir()) == [path]
+
+
+HUMID = """\
+[interface.upper.surface]
+shape = "sphere"
+radius = "2 mm"
+[interface.meniscus]
+liquid = "engine-oil-15w-40"
+relative_humidity = 0.5
+[loading]
+kind = "imposed-speed"
+speed = "1 mm/s"
+initial_gap = "10 um"
+final_gap = "0.2 mm"
+[[effects]]
+effect = "meniscus-force"
+[[effects]]
+effect = "magnet"
+[accuracy]
+points = 1.5
+[study]
+"loading.speed" = 3
+"""
+
+
+def test_check_reports_wrong_physics_beside_wrong_fields(tmp_path, capsys):
+    path = tmp_path / "humid.toml"
+    path.write_text(HUMID)
+    assert main(["check", str(path)]) == 2
+    said = capsys.readouterr().err.splitlines()
+    assert [line.split(" must ")[0].strip() for line in said[1:]] == [
+        "Accuracy.points",
+        "effect",
+        "study",
+        "without what is listed above: Liquid.molar_mass",
+    ]
+    assert "at effects[1], line 15" in said[2]
+
+
+def test_check_plans_nothing_where_a_body_is_wrong(tmp_path, capsys):
+    path = tmp_path / "humid.toml"
+    path.write_text(HUMID.replace('"2 mm"', '"-2 mm"'))
+    assert main(["check", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert "Sphere.radius" in said
+    assert "without what is listed above" not in said

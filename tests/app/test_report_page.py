@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from html.parser import HTMLParser
 
 import pytest
 
+from contactkit.app.output import Command, written_to
+from contactkit.app.report_page import report_page
+from contactkit.app.scenes import described, open_scene
 from contactkit.cli import main
+from contactkit.export.report import Report
+from contactkit.validity import ValidityNumber
 
 pytest.importorskip("matplotlib")
 
@@ -183,3 +189,34 @@ def test_a_page_of_a_run_goes_to_its_folder(folder, tmp_path, capsys):
     scene = folder.parent / "film.toml"
     assert main(["run", str(scene), "--report"]) == 2
     assert "--out" in capsys.readouterr().err
+
+
+def test_the_page_of_a_device_has_its_plan_validity_scene_and_sources(tmp_path):
+    """As the run of the device leaves them, without running it: that takes a minute."""
+    opened = open_scene("micromirror")
+    bond = ValidityNumber(name="Bond number", value=0.2, high=0.1, detail="gravity is left out")
+    wide = ValidityNumber(name="slenderness", value=9.0, low=5.0, detail="<wide> enough")
+    report = Report(
+        {"release_time": (math.nan, "s"), "tilt": (0.1745, "rad")},
+        "it releases",
+        validity=[("lift-off", wide), ("lift-off", bond)],
+    )
+    with written_to(tmp_path / "out", Command("run", "micromirror")) as folder:
+        folder.path.mkdir(exist_ok=True)
+        (folder.path / "signals.csv").write_text("t")
+        folder.keep(opened.name, report.text, report.scalars, **described(opened, report))
+    text = report_page(tmp_path / "out")
+    headings = re.findall("<h2>(.*?)</h2>", text)
+    assert headings == [
+        *("Printed by run", "Numbers of run"),
+        *("Validity", "Plan", "Scene", "Sources"),
+    ]
+    rows = re.findall("<tr>(.*?)</tr>", text)
+    assert "<td>release time</td><td>none</td>" in rows
+    assert "<td>tilt</td><td>9.998 deg</td>" in rows
+    out, fine = (next(i for i, row in enumerate(rows) if name in row) for name in ("Bond", "slend"))
+    assert out < fine
+    assert "&lt;wide&gt; enough" in text
+    assert "sources:" not in text
+    assert "<li>van-der-waals-force: Hamaker 1937" in text
+    assert "landing tilt 10 deg" in text

@@ -12,6 +12,7 @@ import warnings
 import pytest
 
 from contactkit.cli import main
+from contactkit.commands.terminal import progress
 
 SCENE = """\
 [interface.lower]
@@ -189,3 +190,23 @@ def test_bash_completes_by_the_script_it_evaluates(tmp_path):
         env={**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"},
     )
     assert done.stdout.strip() == "sliding"
+
+
+def test_progress_that_was_shown_ends_at_its_end(monkeypatch, capsys):
+    """Also where the last report is far from it; what takes no second shows none."""
+    import io
+    import time
+
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    monkeypatch.setattr(sys, "stderr", shown := Terminal())
+    with progress("quick") as update:
+        update(0.5)
+    assert shown.getvalue() == ""
+    with progress("slow") as update:
+        time.sleep(1.2)
+        update(0.4)
+    found = [int(one) for one in re.findall(r"(\d+) %", shown.getvalue())]
+    assert found == [40, 100]

@@ -194,7 +194,7 @@ def test_the_tables_of_the_docs_have_a_line_of_it(plates, tables):
         word in line for word in ("`ElectrostaticForce`", "| force |", "attraction", "capacitor")
     )
     assert '**`effect = "electrostatic-force"`**' in keys
-    assert re.search(r"`voltage` *\| V *\| must be given *\| Difference of the potentials", keys)
+    assert "| `voltage` | required | Difference of the potentials [V]. |" in keys
 
 
 def test_a_native_fmu_tabulates_it(plates):

@@ -29,14 +29,14 @@ SLOW = (
     "hosts",
     "films",
     "menisci",
-    "cluster",
+    "studies",
     "figures",
     "fit",
     "gradients",
     "separation",
     "contact",
-    "stress",
-    "data",
+    "results",
+    "surfaces",
     "wetting",
 )
 
@@ -45,7 +45,7 @@ def with_blocks(language):
     """Pages with blocks of a language; those about FMUs take long, two others longest."""
 
     def marks(page):
-        if page in (ROOT / "docs" / "adhesion.md", ROOT / "docs" / "head-disk.md"):
+        if page in (ROOT / "docs" / "adhesion.md", ROOT / "docs" / "head-disk-detail.md"):
             return [pytest.mark.exhaustive]
         return [pytest.mark.slow] if "fmu" in page.name or page.stem in SLOW else []
 
@@ -97,6 +97,17 @@ def test_the_readme_shows_what_pressing_a_map_prints(elsewhere, capsys):
     printed = capsys.readouterr().out
     assert printed.startswith(status)
     assert printed.endswith(f"{numbers}\n")
+
+
+def test_getting_started_shows_what_its_example_prints(elsewhere, capsys):
+    page = ROOT / "docs" / "getting-started.md"
+    (block,) = blocks(page, "python")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        exec(block, {})
+    assert ["continuum" in str(w.message) for w in caught] == [True]
+    shown = re.search(r"It prints `([^`]*)`", page.read_text("utf-8"))[1]
+    assert capsys.readouterr().out == f"{shown}\n"
 
 
 @pytest.mark.parametrize("page", with_blocks("toml"))

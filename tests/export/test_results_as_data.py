@@ -172,6 +172,27 @@ def test_a_study_has_its_parameters_as_axes():
     assert frame.attrs["units"]["force"] == "N"
 
 
+def test_points_that_no_parameter_orders_are_numbered():
+    """As those of a Latin hypercube: along the first parameter an index would be unsorted."""
+    vary = {"loading.force, loading.mass": [(30.0, 0.01), (50.0, 0.02), (40.0, 0.03)]}
+    study = ck.study(film(), vary)
+    found = study.to_xarray()
+    assert found.sizes == {"point": 3}
+    assert found.mass.dims == ("point",)
+    assert (
+        float(found.release_time.where(found.force == 50.0, drop=True)[0])
+        == (study.column("release_time")[1])
+    )
+
+
+def test_a_parameter_is_named_as_in_tables_or_by_its_path():
+    study = ck.study(film(), {"loading.mass": [0.01, 0.02], "loading.force": [30.0, 40.0]})
+    for name in ("mass", "loading.mass", "loading.m"):
+        assert study.path_of(name) == "loading.mass"
+    with pytest.raises(ck.DescriptionError, match="over must be one of mass, force, got 'rms'"):
+        study.path_of("rms")
+
+
 def test_values_that_are_no_numbers_are_given_by_their_names():
     study = ck.study(film(), {"interface.meniscus.liquid": ["water", "engine-oil-15w-40"]})
     found = study.to_xarray()

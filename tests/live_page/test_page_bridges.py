@@ -7,8 +7,8 @@ from page_scenes import WATER
 from wasm import Wasm, needs_runtime
 
 import contactkit as ck
+from contactkit.liquids.temperature_table import liquid_table
 from contactkit.live_page.family import Family, family_of, with_values
-from contactkit.live_page.liquid import liquid_table
 from contactkit.live_page.scene import kernel_scene
 from contactkit.live_page.sliders import family_sliders, sliders_of
 from contactkit.live_page.validity import Rules

@@ -79,7 +79,7 @@ def test_the_rough_disk_is_refused_by_name(disk):
 @pytest.mark.exhaustive
 @pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 def test_a_landing_bump_sticks_once_it_has_drained(disk):
-    """The numbers of docs/head-disk.md, and the order of 2 pi R gc = 4.57 uN."""
+    """The numbers of docs/head-disk-detail.md, and the order of 2 pi R gc = 4.57 uN."""
     found = bump_stiction(disk, [1e-8, 1e-6], [0.9, 0.95])
     assert found.pull_off_force == pytest.approx([3.49e-6, 3.74e-6, 3.97e-6, 5.47e-6], rel=2e-2)
     assert found.largest_contact_force[:2].tolist() == [0.0, 0.0]

@@ -28,7 +28,7 @@ FLOORS = [
     ["units", "extras", "validity", "installed"],
     ["registry"],
     ["kinds"],
-    ["validators", "work_precision", "numerics", "export", "reading"],
+    ["arguments", "validators", "work_precision", "numerics", "export", "reading"],
     ["accuracy", "elasticity", "capillary", "lubrication", "adhesion", "roughness"],
     ["as_published"],
     ["data"],
@@ -53,11 +53,12 @@ FLOORS = [
     ["__main__"],
 ]
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
-# Names of packages, kinds, the figures of a room, an optional package, what an FMU carries, what
-# plans and runs a kind of scene, a device and its report.
+# Names of packages, kinds, the figures of a room, an optional package, what an FMU carries, a
+# plugin of the command line, what plans and runs a kind of scene, a device and its report.
 IMPORT_BY_NAME = {
     "contactkit.benchmarks.hard.case",
     "contactkit.benchmarks.table",
+    "contactkit.app.plugin",
     "contactkit.models.device",
     "contactkit.models.library",
     "contactkit.planning",

@@ -76,6 +76,31 @@ def test_every_public_name_has_a_page(script):
         api.topic_of("nowhere.module")
 
 
+def test_what_the_api_lists_is_there(script):
+    api = script("api_pages")
+    for topic in api.TOPICS:
+        for path in topic.more:
+            module, _, name = path.rpartition(".")
+            assert callable(getattr(importlib.import_module(f"contactkit.{module}"), name)), path
+    shown = {name: getattr(ck, name) for name in api.MEMBERS if name in ck._HOMES}
+    assert set(api.MEMBERS) - set(shown) == {"GridFilmState"}
+    for name, members in api.MEMBERS.items():
+        kind = shown.get(name)
+        assert [one for one in members if kind and not hasattr(kind, one)] == [], name
+
+
+def test_an_entry_of_the_api_opens_from_its_sentence(script):
+    entry = (
+        '<div class="doc doc-object doc-function">\n<h2 id="{0}">{0}</h2><div>{0}(a)</div>'
+        '<div class="doc doc-contents first"><p>Does {0}.</p><div>more</div></div></div>\n'
+    )
+    page = script("api_pages").folded("<h1>Files</h1>" + entry.format("f") + entry.format("g"))
+    for name in "fg":
+        assert f"</h2><details><summary>Does {name}.</summary><div>{name}(a)</div>" in page
+    assert page.count("</details></div>") == page.count("<details>") == 2
+    assert page.startswith("<h1>Files</h1><div")
+
+
 def test_signatures_have_the_defaults_of_attrs(script):
     found = script("docstrings").constructor(ck.Meniscus)
     assert found["liquid"].default is None

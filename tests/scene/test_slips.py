@@ -173,17 +173,25 @@ IN_PYTHON = {
         TypeError,
         "Sphere() takes its fields by name: radius=...",
     ),
-    "a text with a unit": (
-        lambda: ck.Flat(radius="1 mm"),
+    "a text with a unit that does not fit": (
+        lambda: ck.Flat(radius="1 mN"),
         ck.DescriptionError,
-        "Flat.radius must be positive and finite [m], got '1 mm'; a text with a unit is for files "
-        "and studies; in Python write 0.001",
+        "Flat.radius must be in a unit that converts to m, got '1 mN'; for example '2.5 m'",
+    ),
+    "a text without its unit": (
+        lambda: ck.Flat(radius="1"),
+        ck.DescriptionError,
+        "Flat.radius must carry a unit [m], got '1'; for example '2.5 m'",
+    ),
+    "a word for a number": (
+        lambda: ck.Flat(radius="wide"),
+        ck.DescriptionError,
+        "Flat.radius must be positive and finite [m], got 'wide'",
     ),
     "a grid as a text": (
         lambda: ck.Accuracy(grid="64x64"),
         ck.DescriptionError,
-        "Accuracy.grid must be a whole number of at least 2, or (ny, nx), got '64x64'; two "
-        "numbers? write [64, 64]",
+        "Accuracy.grid must be a number and a unit [-], got '64x64'; two numbers? write [64, 64]",
     ),
     "an angle beyond 180 deg": (
         lambda: ck.Meniscus(liquid=OIL, contact_angle_lower=200.0 * deg),
@@ -233,9 +241,9 @@ IN_PYTHON = {
         "module 'contactkit' has no attribute 'Simulate'; did you mean 'simulate'?",
     ),
     "a number as a text": (
-        lambda: ck.Accuracy(grid="64"),
+        lambda: ck.Accuracy(grid="64.5"),
         ck.DescriptionError,
-        "in Python write 64",
+        "Accuracy.grid must be a whole number of at least 2, or (ny, nx), got 64.5",
     ),
     "a pressure in another unit": (
         lambda: ck.press(WAVE, "60 nm", STEEL, "100 N"),
@@ -281,7 +289,7 @@ IN_FILES = {
     ),
     "a unit with a capital": (
         FILM.replace('"20 g"', '"0.02 KG"'),
-        "unit must be made of known symbols ('KG' is not one)",
+        "ImposedForce.mass must be made of known symbols ('KG' is not one)",
         "did you mean 'kg'?",
     ),
     "a unit in capitals, of which there are two": (

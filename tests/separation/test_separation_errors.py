@@ -109,7 +109,7 @@ FIELDS = [
     (LIMIT, "ambient_pressure", "Pa", POSITIVE, [0.0, -1e5, None]),
     (CAVITATING, "cavity_pressure", "Pa", FINITE, []),
     (SHEAR, "strength", "Pa", POSITIVE, [0.0, -1e5, None]),
-    (BREAK, "gap", "m", POSITIVE, [0.0, -1e-6]),
+    (BREAK, "gap", "m", f"{POSITIVE}, 'limit' or 'zero-neck'", [0.0, -1e-6]),
     (ATTRACTION, "hamaker_constant", "J", POSITIVE, [0.0, -1e-19, None]),
     (ATTRACTION, "cutoff", "m", POSITIVE, [0.0, -1e-10, None]),
     (STICKY, "work_of_adhesion", "J/m2", POSITIVE, [0.0, -0.05, "wet", None]),
@@ -551,7 +551,10 @@ MISTAKES = {
     "no number": ([('"2 um"', '"two um"')], ["must be a number and a unit [m], got 'two um'"]),
     "unknown unit": (
         [('"2 um"', '"2 parsec"')],
-        ["unit must be made of known symbols ('parsec' is not one)", "at loading.initial_gap"],
+        [
+            "ImposedSpeed.initial_gap must be made of known symbols ('parsec' is not one)",
+            "at loading.initial_gap",
+        ],
     ),
     "a boolean": ([('"2 um"', "true")], ["ImposedSpeed.initial_gap must be", "[m], got True"]),
     "impossible": (
@@ -762,7 +765,7 @@ def test_a_saved_result_comes_back_the_same(tmp_path, viscous_only):
 
 @pytest.mark.parametrize("text", ["1 foo", "1 m/foo", "1 xm", "1 kbar.foo", "1e m"])
 def test_an_unknown_symbol_is_named(text):
-    refuses(lambda: parse_quantity(text, "m"), "unit must be made of known symbols")
+    refuses(lambda: parse_quantity(text, "m", "Flat.radius"), "Flat.radius must be made of known")
 
 
 @pytest.mark.parametrize("value", ["", "m", "nan m", "- m", None, [1.0], True])

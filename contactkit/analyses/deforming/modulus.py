@@ -74,7 +74,7 @@ class ModulusCurve(Curve):
 
 def modulus_curve(
     scene: SeparationScene,
-    frequencies: Sequence[float] | Floats,
+    frequencies: Sequence[float | str] | Floats,
     accuracy: Accuracy | None = None,
 ) -> ModulusCurve:
     r"""Storage and loss modulus of a flooded film over the frequency, at `initial_gap`.

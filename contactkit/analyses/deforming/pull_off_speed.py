@@ -9,6 +9,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from ...accuracy import Accuracy
+from ...arguments import listed
 from ...errors import DescriptionError, PlanError
 from ...scene.curve import Curve, Shown
 from ...scene.loading import ImposedSpeed, PressAndPull
@@ -64,16 +65,16 @@ class PullOffSpeedCurve(Curve):
         return ("Davis, Serayssol and Hinch 1986: film and elastic sphere together",)
 
 
-def positive_values(values: Sequence[float] | Floats, where: str, unit: str) -> Floats:
+def positive_values(values: Sequence[float | str] | Floats, where: str, unit: str) -> Floats:
     """Return values as an array; refuse what is not positive and finite."""
-    given = np.atleast_1d(np.asarray(values, dtype=np.float64))
-    if given.ndim != 1 or not given.size or not ((given > 0.0) & np.isfinite(given)).all():
+    given = listed(where, values, unit)
+    if not (given > 0.0).all():
         raise DescriptionError(where, values, "be positive and finite numbers", unit=unit)
     return given
 
 
 def pull_off_over_speed(
-    scene: SeparationScene, speeds: Sequence[float] | Floats, accuracy: Accuracy | None = None
+    scene: SeparationScene, speeds: Sequence[float | str] | Floats, accuracy: Accuracy | None = None
 ) -> PullOffSpeedCurve:
     """Pull-off force over the opening speed, of a scene with `ElasticBodies`.
 

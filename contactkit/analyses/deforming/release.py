@@ -54,8 +54,8 @@ class ReleaseCurve(Curve):
 def release_over(
     scene: SeparationScene,
     *,
-    forces: Sequence[float] | Floats | None = None,
-    rests: Sequence[float] | Floats | None = None,
+    forces: Sequence[float | str] | Floats | None = None,
+    rests: Sequence[float | str] | Floats | None = None,
     accuracy: Accuracy | None = None,
 ) -> ReleaseCurve:
     """Time of release over the pull, or over the time of rest before it.

@@ -57,8 +57,8 @@ class StictionTable(Curve):
 
 def stiction_table(
     scene: SeparationScene,
-    rests: Sequence[float] | Floats,
-    humidities: Sequence[float] | Floats,
+    rests: Sequence[float | str] | Floats,
+    humidities: Sequence[float | str] | Floats,
     accuracy: Accuracy | None = None,
 ) -> StictionTable:
     """Pull-off force after each time of rest at each humidity.

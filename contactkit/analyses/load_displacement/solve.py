@@ -16,6 +16,7 @@ import numpy as np
 from attrs import evolve
 
 from ...accuracy import Accuracy
+from ...arguments import listed
 from ...contact.chain import ContactChain, loading_of
 from ...contact.effects.base import (
     Attraction,
@@ -40,6 +41,7 @@ from .curve import HERTZ, LoadDisplacementCurve, Unloading
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Floats = NDArray[np.float64]
     Map = NDArray[np.float64]
 
 __all__ = ["load_displacement"]
@@ -64,8 +66,8 @@ class _Node(NamedTuple):
 def load_displacement(
     scene: ContactScene,
     *,
-    loads: Sequence[float] | None = None,
-    approaches: Sequence[float] | None = None,
+    loads: Sequence[float | str] | Floats | None = None,
+    approaches: Sequence[float | str] | Floats | None = None,
     points: int = 32,
     decades: float = 4.0,
     n_unloadings: int = 12,
@@ -194,8 +196,8 @@ def _count(name: str, value: int, least: int) -> int:
 
 def _series(
     scene: ContactScene,
-    loads: Sequence[float] | None,
-    approaches: Sequence[float] | None,
+    loads: Sequence[float | str] | Floats | None,
+    approaches: Sequence[float | str] | Floats | None,
     points: int,
     decades: float,
 ) -> tuple[str, list[float]]:
@@ -205,7 +207,7 @@ def _series(
     given = loads if loads is not None else approaches
     if given is not None:
         key, unit = ("force", "N") if loads is not None else ("approach", "m")
-        values = [float(value) for value in given]
+        values = listed(f"load_displacement({key})", given, unit).tolist()
         pairs = zip([0.0, *values], values, strict=False)
         if len(values) < 2 or not all(a < b < math.inf for a, b in pairs):
             expected = "be two or more, positive and ascending"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import partial
 
-from ...errors import DescriptionError
 from ...studies.columns import StudyColumns
 from ...studies.sensitivity import Sensitivity
 from ...studies.sobol import SobolIndices
@@ -37,7 +36,8 @@ class StudyFigures(Figures[StudyColumns]):
         name : str
             Name of a column, such as ``contact_area``.
         over : str, optional
-            Path of the parameter, or its beginning; the last one if not given.
+            Name of the parameter in tables, its path, or the beginning of that; the last one if
+            not given.
         ax : Axes, optional
             Where to draw; a new figure if not given.
 
@@ -47,10 +47,7 @@ class StudyFigures(Figures[StudyColumns]):
             If there is no such column or parameter.
         """
         study = self._owner
-        paths = [path for paths in study.paths for path in paths]
-        path = next((p for p in paths if p.startswith(over)), "") if over else study.paths[-1][0]
-        if not path:
-            raise DescriptionError("over", over, f"be one of {', '.join(paths)}")
+        path = study.path_of(over) if over else study.paths[-1][0]
         unit = study.unit(name)
         factor, shown = readable(unit, study.column(name))
         along, place = _of_parameter(study, path)

@@ -29,9 +29,11 @@ _JUST_BELOW = 1.0 - 1e-6  # of the gap at which a bridge ends
 def _gap(owner: object, attribute: Attribute[Any], value: Any) -> None:
     if value in ("limit", "zero-neck"):
         return
-    if isinstance(value, str) and not value[:1].isdigit():  # a word, no length with its unit
-        raise refuse(owner, attribute, value, "be positive and finite, 'limit' or 'zero-neck'")
-    positive(owner, attribute, value)
+    try:
+        positive(owner, attribute, value)
+    except DescriptionError as error:
+        expected = f"{error.expected}, 'limit' or 'zero-neck'"
+        raise refuse(owner, attribute, value, expected, error.hint) from None
 
 
 @frozen(kw_only=True)

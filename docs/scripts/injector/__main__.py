@@ -19,9 +19,7 @@ from injector import coupling, delays
 TABLES = {
     "hosts": coupling.hosts,
     "oils": delays.oils_table,
-    "strengths": delays.strength_table,
     "pressures": delays.pressure_table,
-    "cavities": delays.cavity_table,
     "closing": delays.closing_table,
     "refilling": delays.refilling_table,
 }

@@ -257,14 +257,14 @@ def _error(time: float) -> str:
 def hosts() -> str:
     """Error of the first release of the injector, by coupling and communication step."""
     cells = {name: [_error(time) for time in times] for name, times in releases().items()}
-    cells["linear"].append("refused: the end stop needs less than 28 us")
+    cells["linear"].append("refused: the end stop needs less than 28 µs")
     rows = {
         "linear": "`contactkit.fmu.master.injector`, pull linear in each step",
         "parallel": "both FMUs in parallel, as fmpy, Ecos, libcosim and a container step them",
         "film": "film first, as a container with `-sequential`",
         "drive": "drive first, as a container with `-sequential`",
     }
-    head = ["| coupling | 1 us | 5 us | 100 us |", "|---|---|---|---|"]
+    head = ["| coupling | 1 µs | 5 µs | 100 µs |", "|---|---|---|---|"]
     lines = [f"| {text} | {' | '.join(cells[name])} |" for name, text in rows.items()]
     after = (
         f"Release of the reference at {1e3 * reference():.6f} ms. With adaptive steps "

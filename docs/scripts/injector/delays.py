@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 from validation_tables import grid
 
@@ -20,7 +19,7 @@ def _milliseconds(delay: float) -> str:
 
 
 def _degrees(injector: InjectorScene) -> list[str]:
-    return [f"{t - celsius(0.0):.0f} degC [ms]" for t in injector.study.temperatures]
+    return [f"{t - celsius(0.0):.0f} °C [ms]" for t in injector.study.temperatures]
 
 
 def oils_table() -> str:
@@ -43,48 +42,22 @@ def oils_table() -> str:
     return grid(["oil", *_degrees(injector)], [*rows, ["no film (dry)", dry, dry, dry]])
 
 
-def strength_table() -> str:
-    """Release delay over the strength: cavities of vapour, and oils that sustain their strength."""
-    strengths = (1.02, 3.0, 5.0, 10.0, 12.0, 13.0, 15.0, 20.0, 24.0, 25.5, 26.0, 28.0)
-    return _over_pressure("strength", "strength", strengths)
-
-
-def cavity_table() -> str:
-    """Release delay over the pressure in the cavity, of an oil that cavitates at 10 bar."""
-    injector = open_scene("fuel-injector").scene
-    rows = [
-        [
-            f"{pressure:g} bar",
-            *(
-                _milliseconds(delay(injector, t, cavity_pressure=pressure * 1e5))
-                for t in injector.study.temperatures
-            ),
-        ]
-        for pressure in (0.9, 0.5, 0.0, -1.0, -2.0, -4.0, -6.0, -8.0, -8.98675)
-    ]
-    return grid(["cavity", *_degrees(injector)], rows)
-
-
 def pressure_table() -> str:
-    """Release delay over the pressure around the face, of an oil that cavitates at -9 bar."""
-    around = (1.01325, 2.0, 3.0, 5.0, 10.0, 12.0, 13.0, 14.0, 15.0, 17.0, 20.0)
-    return _over_pressure("pressure around the face", "ambient_pressure", around)
-
-
-def _over_pressure(title: str, name: str, values: Sequence[float]) -> str:
-    """Release delay over a pressure of `delay` [bar], for vapour and oils that sustain."""
+    """Release delay over the pressure around the face [bar], of an oil that cavitates at -9 bar."""
     injector = open_scene("fuel-injector").scene
     rows = []
-    for value in values:
-        cells = [
-            _milliseconds(delay(injector, t, cavity_pressure=pressure, **{name: value * 1e5}))
-            for pressure in (0.0, -math.inf)
-            for t in injector.study.temperatures
-        ]
-        rows.append([f"{value:g} bar", *cells])
-    degrees = _degrees(injector)
-    head = [f"{oil}, {one}" for oil in ("vapour", "sustains it") for one in degrees]
-    return grid([title, *head], rows)
+    for value in (1.01325, 2.0, 3.0, 5.0, 10.0, 12.0, 13.0, 14.0, 15.0, 17.0, 20.0):
+        row = [f"{value:.3g} bar"]
+        for pressure in (0.0, -math.inf):
+            cells = [
+                _milliseconds(
+                    delay(injector, t, cavity_pressure=pressure, ambient_pressure=value * 1e5)
+                )
+                for t in injector.study.temperatures
+            ]
+            row.append(", ".join(cells))
+        rows.append(row)
+    return grid(["pressure", "vapour [ms]", "sustains it [ms]"], rows)
 
 
 def closing_table() -> str:
@@ -92,15 +65,15 @@ def closing_table() -> str:
     injector = open_scene("fuel-injector").scene
     profile, rest = injector.valve.profile, injector.loading.rest_gap
     ends = [profile.start_delay + (n + 1) * profile.period for n in range(profile.cycles)]
-    head = [f"after cycle {n + 1} [um]" for n in range(len(ends))]
+    head = [f"cycle {n} [µm]" for n in (1, len(ends))]
     rows = []
     for name, pressure in (("vapour", 0.0), ("sustains it", -math.inf)):
         for temperature in injector.study.temperatures:
             made = ck.plan(injector.separation(temperature, cavity_pressure=pressure))
             found = simulate_monolithic(made, injector.valve, ends[-1], rtol=1e-6, times=ends)
-            short = [f"{(gap - rest) * 1e6:.2f}" for gap in found.columns["gap"]]
-            rows.append([f"{name}, {temperature - celsius(0.0):.0f} degC", *short])
-    return grid(["cavity, temperature", *head], rows)
+            short = [f"{(found.columns['gap'][n] - rest) * 1e6:.2f}" for n in (0, -1)]
+            rows.append([f"{name}, {temperature - celsius(0.0):.0f} °C", *short])
+    return grid(["cavity", *head], rows)
 
 
 def refilling_table() -> str:
@@ -124,7 +97,7 @@ def refilling_table() -> str:
             * (1.0 - 2.0 * math.log(x))
             for drop in (101325.0, 1e6)
         ]
-        degrees = f"{temperature - celsius(0.0):.0f} degC"
+        degrees = f"{temperature - celsius(0.0):.0f} °C"
         rows.append([degrees, f"{viscosity:.3g}", *(f"{time * 1e3:.3g}" for time in times)])
-    head = ["temperature", "viscosity [Pa.s]", "cavity of vapour [ms]", "sustains 10 bar [ms]"]
+    head = ["oil at", "viscosity [Pa·s]", "vapour [ms]", "10 bar [ms]"]
     return grid(head, rows)

@@ -113,10 +113,7 @@ def page(name: str, found: list[Cell]) -> str:
             n_figures += 1
             titles = [ax.get_title(loc="left") or ax.get_title() for ax in figure.axes]
             parts.append(f"![{'; '.join(filter(None, titles))}]({name}-{n_figures}.png)")
-    parts.append(
-        f"Run it yourself: [{name}.ipynb]({name}.ipynb) is this page as a notebook, "
-        f"`examples/tutorials/{name}.py` as a script in cells."
-    )
+    parts.append(f"Run it yourself: [this page as a notebook]({name}.ipynb).")
     return "\n\n".join(parts) + "\n"
 
 

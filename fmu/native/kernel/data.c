@@ -86,6 +86,11 @@ void ck_made_table(ck_reader *r, ck_table *made) {
         if (made->pieces[i].low != made->pieces[i - 1].high) r->fine = 0;
 }
 
+/* A cubic goes through four nodes. */
+void ck_made_liquid_table(ck_reader *r, ck_liquid_table *made) {
+    if (made->n_nodes < 4 || !(made->low < made->high)) r->fine = 0;
+}
+
 void ck_made_variable(ck_reader *r, ck_variable *made) {
     int fits = made->start >= made->low && made->start <= made->high;
     if (made->type & (made->type - 1)) r->fine = 0; /* one bit */

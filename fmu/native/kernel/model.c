@@ -208,7 +208,8 @@ const char *ck_common_parameters(ck_model *model) {
     if (v[CK_H_BREAK] > 0.0 && v[CK_H_BREAK] <= v[CK_H0])
         return ck_wrong(model, CK_H_BREAK, "be 0 or exceed", CK_H0, "m");
     scene->initial_gap = v[CK_H0];
-    scene->viscosity = v[CK_ETA], scene->surface_tension = v[CK_GAMMA];
+    problem = ck_liquid(model, &scene->viscosity, &scene->surface_tension);
+    if (problem) return problem;
     scene->tension = v[CK_DP_CAV], scene->strength = v[CK_TAU_LIM];
     problem = tensions(model, v[CK_DP_INCEPTION], v[CK_DP_HOLD]);
     if (problem) return problem;

@@ -179,6 +179,7 @@ int ck_model_is_in(ck_model *model, int phase, const char *call);
 const ck_kind *ck_model_kind(const ck_model *model);
 const char *ck_model_prepare(ck_model *model);
 const char *ck_common_parameters(ck_model *model);
+const char *ck_liquid(ck_model *model, double *viscosity, double *surface_tension); /* at T */
 int ck_step_limit(const ck_model *model); /* parameter max_steps */
 int ck_rate_twice(ck_model *model);       /* the rate of F_ext was given in two ways */
 /* What a parameter must do to another one of its unit, with the values of both. */

@@ -8,13 +8,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ....export.report import FmuStart, Report
+from ....export.report import FmuStart, Report, validity_lines
 from ....files.results import save_csv, save_npz
 from ....files.scenes import unstructure
 from ....separation.effects.base import FilmStatus
 from ....separation.effects.viscous import TensionLimit
 from ....separation.plan import plan
 from ....units import bar, celsius
+from ....validity import ValidityNumber
 from ..delays import delay, dry_delay
 from ..scene import InjectorScene
 from .cosimulation import InjectorRun, cosimulate_cases
@@ -112,13 +113,16 @@ def report(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path | None) 
         scalars |= _scalars(run, found, dry)
     impacts, numbers = end_stop_numbers(scene, runs, [run.name for run in runs])
     softened, changes = deformation_numbers(scene, pull)
-    lines += [*spread, *_what_decides(scene, runs, pull), *softened, *impacts, *_validity(runs)]
+    validity = _validity(runs)
+    lines += [*spread, *_what_decides(scene, runs, pull), *softened, *impacts]
+    lines += ["", *validity_lines(validity)]
     numbers |= changes
     text = "\n".join(lines)
     if out is None:
-        return Report(scalars | numbers, text)
+        return Report(scalars | numbers, text, validity=validity)
     write = partial(_write, scene, runs, out)
-    return Report(scalars | numbers, text, write, partial(_draw, scene, runs, out, dry, pull))
+    draw = partial(_draw, scene, runs, out, dry, pull)
+    return Report(scalars | numbers, text, write, draw, validity)
 
 
 def _row(run: InjectorRun, found: Sequence[Cycle], dry: float) -> str:
@@ -196,22 +200,17 @@ def _what_decides(scene: InjectorScene, runs: Sequence[InjectorRun], pull: float
     ]
 
 
-def _validity(runs: Sequence[InjectorRun]) -> list[str]:
-    """Say for each temperature how far the models were inside their ranges."""
-    lines = [""]
+def _validity(runs: Sequence[InjectorRun]) -> list[tuple[str, ValidityNumber]]:
+    """How far the models were inside their ranges, at each temperature."""
+    found = list[tuple[str, ValidityNumber]]()
     for run in runs:
         if run.sustained:
             continue
         whole = run.coupled["state"] != FilmStatus.BROKEN
         gaps, speeds = run.coupled["h"][whole], run.coupled["v"][whole]
-        found = run.plan.validity(list(zip(gaps.tolist(), speeds.tolist(), strict=True)))
-        numbers = [
-            f"{n.name} {n.value:.2g} {'ok' if n.is_valid else 'OUT OF RANGE'}"
-            for n in found
-            if n.value is not None
-        ]
-        lines.append(f"validity, {run.label}: {', '.join(numbers)}")
-    return lines
+        pairs = list(zip(gaps.tolist(), speeds.tolist(), strict=True))
+        found += [(run.label, number) for number in run.plan.validity(pairs)]
+    return found
 
 
 def _write(scene: InjectorScene, runs: Sequence[InjectorRun], out: Path) -> tuple[Path, ...]:

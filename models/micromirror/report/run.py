@@ -10,10 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from ....export.report import FmuStart, Report
+from ....export.report import FmuStart, Report, validity_lines
 from ....files.results import save_csv, save_npz
 from ....files.scenes import unstructure
 from ....separation.effects.meniscus import MeniscusForce
+from ....validity import ValidityNumber
 from ..coupling import HELD, SIGNALS
 from ..electrostatics import pull_in
 from ..release import Landing, Release, landing, release_curve
@@ -75,6 +76,7 @@ def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: 
     free, error = run_errors(scene, run)
     landings, numbers = landing_numbers(scene, run)
     softened, changes = deformation_numbers(scene, _held_states(run))
+    validity = _validity(run, found)
     lines = [
         f"{scene.name}: does it release?",
         *_landed_text(scene, landed),
@@ -85,7 +87,7 @@ def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: 
         *_flips(scene, run, free, error),
         *landings,
         *softened,
-        *_validity(run, found),
+        *validity_lines(validity),
     ]
     scalars: dict[str, tuple[Any, str]] = {
         "landed_tilt": (landed.tilt, "rad"),
@@ -104,9 +106,9 @@ def report(scene: MicromirrorScene, run: MirrorRun, out: Path | None, progress: 
         scalars |= _scalars(scene, one)
     text = "\n".join(lines)
     if out is None:
-        return Report(scalars, text)
+        return Report(scalars, text, validity=validity)
     write = partial(_write, scene, run, found, out)
-    return Report(scalars, text, write, partial(_draw, scene, run, found, out))
+    return Report(scalars, text, write, partial(_draw, scene, run, found, out), validity)
 
 
 def _landed_text(scene: MicromirrorScene, landed: Landing) -> list[str]:
@@ -228,20 +230,12 @@ def _held_states(run: MirrorRun) -> list[tuple[float, float]]:
     return list(zip(gaps[spans].tolist(), speeds[spans].tolist(), strict=True))
 
 
-def _validity(run: MirrorRun, found: Sequence[Release]) -> list[str]:
-    """Say how far the models were inside their ranges."""
-    lines = []
+def _validity(run: MirrorRun, found: Sequence[Release]) -> list[tuple[str, ValidityNumber]]:
+    """How far the models were inside their ranges."""
     pairs = _held_states(run)
-    if pairs:
-        warnings = [
-            f"{n.name} {n.value:.2g} {'ok' if n.is_valid else 'OUT OF RANGE'}"
-            for n in run.plan.validity(pairs)
-            if n.value is not None
-        ]
-        if warnings:
-            lines.append("validity, lift-off: " + ", ".join(warnings))
-    held_by = condensate_validity(one.adhesion for one in found)
-    return [*lines, *(f"validity, condensate: {number}" for number in held_by)]
+    held = run.plan.validity(pairs) if pairs else ()
+    condensed = condensate_validity(one.adhesion for one in found)
+    return [*(("lift-off", one) for one in held), *(("condensate", one) for one in condensed)]
 
 
 def _scalars(scene: MicromirrorScene, one: Release) -> dict[str, tuple[Any, str]]:

@@ -146,6 +146,6 @@ def test_whole_numbers_of_arrays_are_whole_numbers(made):
         evolve(made, steps=3.0)
 
 
-def test_a_text_for_a_whole_number_in_a_file_asks_for_one():
-    with pytest.raises(ck.DescriptionError, match=r"steps must be a whole number, .*'four'$"):
-        field_value(ck.TangentialStep, "steps", "four")
+def test_a_word_for_a_whole_number_in_a_file_is_refused():
+    with pytest.raises(ck.DescriptionError, match=r"steps must be a whole number .*got 'four'$"):
+        ck.TangentialStep(ratio=0.5, steps=field_value(ck.TangentialStep, "steps", "four"))

@@ -26,9 +26,9 @@ from contactkit.fmu.native.faces import faces_of
 from contactkit.fmu.native.film import moving, prepared_film
 from contactkit.fmu.native.models import MODELS, VARIABLES
 from contactkit.fmu.native.record import Record
-from contactkit.fmu.native.records import Curve
+from contactkit.fmu.native.records import Curve, LiquidTable
 
-MAYBE = ("tables", "faces", "residual", "dissipated", "bodies", "series", "rings")
+MAYBE = ("tables", "faces", "residual", "dissipated", "bodies", "series", "rings", "liquid")
 """Members that may be missing."""
 SCENE = ck.SeparationScene(
     interface=ck.Interface(
@@ -42,6 +42,10 @@ SCENE = ck.SeparationScene(
     effects=(ck.ElasticBodies(), ck.ViscousForce()),
 )
 SOFT = deforming_film(SCENE)
+
+OIL = LiquidTable(
+    low=250.0, high=400.0, viscosity=(0.5, 0.4, 0.2, 0.1), surface_tension=(-3.0, -3.1, -3.2, -3.3)
+)
 
 MADE = {*sources.description_sources()}
 LAYOUT = sources.layout()
@@ -61,7 +65,7 @@ def contents(faces):
     tables = prepared_film(moving(SCENES["rewetting"], None)).tables
     solids = prepared_film(moving(SCENES["solids"], None)).tables
     held = {
-        "stiction-mass": (tables, None),
+        "stiction-mass": (tables, None, None, OIL),
         "stiction-force": (solids, None),
         "valve-drive": (None, None),
         "contact-stop": (None, faces),
@@ -71,7 +75,9 @@ def contents(faces):
     }
     assert set(held) == set(MODELS)
     return {
-        name: contents_of(name, MODELS[name].ports, MODELS[name].slave.start_values(), *more)
+        name: contents_of(
+            name, MODELS[name].ports, {"T": 293.15, **MODELS[name].slave.start_values()}, *more
+        )
         for name, more in held.items()
     }
 

@@ -28,17 +28,21 @@ static ck_deforming *film_of(ck_model *model) { return &model->deforming; }
 
 static const char *apply(ck_model *model) {
     ck_deforming *d = film_of(model);
-    const double *v = model->state.values;
-    ck_deforming_units(d, v[CK_ETA]);
-    d->rtol = v[CK_RTOL];
+    double viscosity, tension;
+    const char *problem = ck_liquid(model, &viscosity, &tension);
+    if (problem) return problem;
+    ck_deforming_units(d, viscosity);
+    d->rtol = model->state.values[CK_RTOL];
     return NULL;
 }
 
 static const char *apply_mass(ck_model *model) {
     ck_deforming *d = film_of(model);
     const double *v = model->state.values;
+    const char *problem;
     if (v[CK_H_REL] <= v[CK_H0]) return ck_wrong(model, CK_H_REL, "exceed", CK_H0, "m");
-    apply(model);
+    problem = apply(model);
+    if (problem) return problem;
     d->mass = v[CK_M] * d->gap / (d->force * d->time * d->time);
     if (d->record->has_series && d->mass < LIGHTEST) {
         snprintf(model->wrong, sizeof model->wrong,

@@ -1,4 +1,4 @@
-"""Properties of a liquid over the temperature, for the page: cubics through their logarithms."""
+"""Properties of a liquid over the temperature, for kernels: cubics through their logarithms."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import warnings
 from attrs import frozen
 
 from ..errors import ValidityWarning
-from ..liquids.liquid import Liquid
-from ..liquids.temperature_laws import TemperatureLaw
+from .liquid import Liquid
+from .temperature_laws import TemperatureLaw
 
 __all__ = ["LiquidTable", "liquid_table"]
 
@@ -34,7 +34,7 @@ class LiquidTable:
 
 
 def _cubic(values: list[float], low: float, high: float, x: float) -> float:
-    """Lagrange's cubic through the four nodes around x; as ``template/tables.js``."""
+    """Lagrange's cubic through the four nodes around x, as in JavaScript and C."""
     place = (x - low) / (high - low) * (len(values) - 1)
     first = min(max(int(place) - 1, 0), len(values) - 4)
     t, (a, b, c, d) = place - first, values[first : first + 4]

@@ -1,4 +1,4 @@
-"""Quantities that the shortcuts take: numbers, arrays, or texts with a unit."""
+"""Quantities that functions take: numbers, arrays, or texts with a unit."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import DescriptionError
-from ..units import parse_quantity
+from .errors import DescriptionError
+from .units import parse_quantity
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = [
     "angles",
     "check_shapes",
+    "listed",
     "non_negative",
     "plain",
     "positive",
@@ -36,7 +37,7 @@ def quantity(name: str, given: ArrayLike | str, unit: str) -> Array:
     name : str
         The argument, as ``function(argument)``.
     given : float, array_like or str
-        A number or numbers in `unit`, or a text with its own unit.
+        A number or numbers in `unit`, a text with its own unit, or a sequence with texts.
     unit : str
         SI unit.
 
@@ -49,14 +50,18 @@ def quantity(name: str, given: ArrayLike | str, unit: str) -> Array:
     --------
     >>> float(quantity("squeeze_time(radius)", "3 mm", "m"))
     0.003
+    >>> quantity("load_curve(loads)", ["5 mN", 0.01], "N").tolist()
+    [0.005, 0.01]
     """
     if isinstance(given, str):
         return np.asarray(parse_quantity(given, unit, name))
+    if isinstance(given, list | tuple) and any(isinstance(one, str) for one in given):
+        given = [parse_quantity(one, unit, name) for one in given]
     try:
         found = np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError):
         raise DescriptionError(name, given, "be a number", unit=unit) from None
-    if isinstance(given, bool) or given is None:
+    if given is None or np.asarray(given).dtype == np.bool_:
         raise DescriptionError(name, given, "be a number", unit=unit)
     return found
 
@@ -72,6 +77,20 @@ def _checked(
         return found
 
     return check
+
+
+def listed(name: str, given: ArrayLike | str, unit: str) -> Array:
+    """As `quantity`, one value or more along one axis; refuses what is not finite.
+
+    Raises
+    ------
+    DescriptionError
+        If there is no value, one that is not finite, or more than one axis.
+    """
+    found = np.atleast_1d(quantity(name, given, unit))
+    if found.ndim != 1 or not found.size or not np.isfinite(found).all():
+        raise DescriptionError(name, given, "be a sequence of finite numbers", unit=unit)
+    return found
 
 
 positive = _checked(lambda x: (x > 0.0) & np.isfinite(x), "be positive and finite")
