@@ -16,6 +16,7 @@ _EXTRAS = {
     "ducc0": "fast",
     "emcee": "posterior",
     "fmpy": "fmu",
+    "marimo": "app",
     "matplotlib": "plot",
     "mpl_toolkits": "plot",
     "numba": "fast",

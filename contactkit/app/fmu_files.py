@@ -15,7 +15,7 @@ from ..models.library import bundled_scenes
 from .scenes import Opened, open_scene
 from .settings import assignments, with_settings
 
-__all__ = ["Order", "build_fmu", "check_order"]
+__all__ = ["Order", "build_fmu", "build_opened", "check_order"]
 
 
 _FILMS = ("stiction-mass", "stiction-force")
@@ -86,12 +86,28 @@ def build_fmu(order: Order) -> str:
     """
     from ..fmu.python.build import FMUS, build
 
-    by_name = order.what in FMUS
-    opened = None if by_name else with_settings(_opened(order.what, FMUS), order.settings)
-    given = assignments(order.settings) if by_name else {}
+    if order.what not in FMUS:
+        return build_opened(order, with_settings(_opened(order.what, FMUS), order.settings))
+    given = assignments(order.settings)
     if order.native:
-        return _build_native(order, opened, given)
-    start = FmuStart(order.what, given) if opened is None else opened.fmu_start()
+        return _build_native(order, None, given)
+    build(order.what, order.out, start=given)
+    return order.what
+
+
+def build_opened(order: Order, opened: Opened) -> str:
+    """Build the FMU of an opened scene, whose values are set; `Order.what` is its name.
+
+    Raises
+    ------
+    DescriptionError, PlanError
+        If the scene has no such FMU.
+    """
+    from ..fmu.python.build import build
+
+    if order.native:
+        return _build_native(order, opened, {})
+    start = opened.fmu_start()
     build(start.name, order.out, start=start.values)
     return start.name
 

@@ -2,8 +2,7 @@
 
 ``contactkit cost NAME``, the pages of the documentation, the tests and the benchmarks read it. A
 study has a scene, settings that refine its solution, and a reference. What compares models of
-physics at one setting is none: errors of closures of bridges (`models.liquid_bridges`), statements
-of the source (``docs/scripts/measure_claims.py``).
+physics at one setting is none, as errors of closures of bridges (`models.liquid_bridges`).
 """
 
 from __future__ import annotations
@@ -226,7 +225,7 @@ _CONTACT = (
         half="contact",
         title="Spheres on layers, 32 pixels to the contact radius",
         quantity="maximum pressure, approach, radius and greatest sqrt(J2)",
-        judge="an axisymmetric solution (`contactkit/benchmarks/references`)",
+        judge="an axisymmetric solution",
         solvers=("solve", "subsurface-stress", "friction-traction"),
         measured_by="benchmarks.layered_studies:spheres",
         holds=2e-4,
@@ -239,7 +238,7 @@ _CONTACT = (
         half="contact",
         title="Waves of one direction in partial contact, over the pixels to the wave",
         quantity="maximum pressure, mean gap over amplitude, half-width of contact",
-        judge="Westergaard, and a series on layers (`contactkit/benchmarks/references`)",
+        judge="Westergaard, and a series on layers",
         solvers=("solve",),
         measured_by="benchmarks.layered_studies:waves",
         holds=5e-5,
@@ -358,7 +357,7 @@ _SEPARATION = (
         half="separation",
         title="Release times of reference cases, by preset",
         quantity="release time",
-        judge="two other codes that agree to 1e-9, E to 3e-8 (`contactkit/benchmarks/references`)",
+        judge="two other codes that agree to 1e-9, E to 3e-8",
         solvers=("simulate", "advance"),
         measured_by="benchmarks.separation_studies:releases",
         digits="case B",

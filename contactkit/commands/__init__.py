@@ -11,6 +11,7 @@ plan            ``contactkit plan`` and ``contactkit check``, which run nothing.
 cost            ``contactkit cost``.
 report          ``contactkit report``.
 page            ``contactkit page``.
+app             ``contactkit app``.
 gallery         ``contactkit gallery``.
 lists           ``contactkit list`` and ``contactkit new``, which help to write a scene file.
 fmu             ``contactkit fmu build``, ``fmu system`` and ``fmu crosscheck``.

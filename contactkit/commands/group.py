@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from .app import app
 from .completion import completion
 from .cost import cost
 from .fit import fit
@@ -42,6 +43,6 @@ def contactkit(context: click.Context, version: bool) -> int:
 
 for _command in (
     *(list_names, new, check, plan, run, study, fit, cost, report, page),
-    *(gallery, fmu, completion),
+    *(app, gallery, fmu, completion),
 ):
     contactkit.add_command(_command)

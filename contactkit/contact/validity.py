@@ -86,7 +86,7 @@ def _pixels_per_wave(contact: SolvedContact) -> ValidityNumber:
         if shortest is None
         else f"below, the maximum pressure is up to a quarter off (at 3 pixels) and stress more; "
         f"use a finer Accuracy.grid, or a longer {shortest.field}",
-        source="measured, docs/accuracy.md, Pixels per wave",
+        source="measured: documentation, Accuracy",
     )
 
 
@@ -105,7 +105,7 @@ def _pixels_per_spot(contact: SolvedContact) -> ValidityNumber:
         f"tenth off{_light(area)}; use a finer Accuracy.grid, or a smaller window"
         if area
         else "there is no contact",
-        source="16/pi x area/edges; measured, docs/accuracy.md, Pixels per wave",
+        source="16/pi x area/edges; measured: documentation, Accuracy",
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from ..units import readable_unit
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["axis_label", "axis_unit", "in_print", "readable", "scaled"]
+__all__ = ["axis_label", "axis_unit", "in_print", "in_prose", "readable", "scaled"]
 
 _SI = ("N", "Pa", "m", "m2", "m3", "s", "J", "N.s", "Pa.s", "m/s", "N/m", "rad")  # not the scales
 _PRINT = str.maketrans({"2": "²", "3": "³", "4": "⁴", ".": "·"})
@@ -29,6 +30,36 @@ def in_print(unit: str) -> str:
         return "°" + unit.removeprefix("deg")
     known = unit.translate(_PRINT)
     return "µ" + known[1:] if known.startswith("u") else known
+
+
+# What is not prose: blocks and words of code, formulas, targets of links, comments.
+_CODE = re.compile(
+    r"(```.*?```|`[^`\n]+`|\$\$.*?\$\$|\$[^$\n]+\$|\]\([^)\s]*\)|<!--.*?-->)", re.DOTALL
+)
+_LETTERS = (
+    (re.compile(r"(?<![\w\\])u(?=(?:m[23]?|s|N|J|Pa)\b)"), "µ"),
+    (re.compile(r"(?<![\w\\])([nµmc]?m)2(?!\w)"), r"\1²"),
+    (re.compile(r"(?<![\w\\])([nµmc]?m)3(?!\w)"), r"\1³"),
+    (re.compile(r"(?<=\d) deg(?:rees)?\b|\bdeg(?=C?\b)"), "°"),
+    (re.compile(r"\b([kmµnp]?(?:N|Pa))\.(s|m)\b"), r"\1·\2"),
+    (re.compile(r"(?<=N·m)\.(?=s\b)|(?<=\bkg)\.(?=m²)"), "·"),
+    (re.compile(r"(?<=\d )(m?)ohm\b"), r"\1Ω"),
+)
+
+
+def in_prose(text: str) -> str:
+    """Markdown with its units in the letters of print; code, formulas and links stay as they are.
+
+    Examples
+    --------
+    >>> in_prose("0.1 mm3 of 2 Pa.s at 60 degrees and 20 degC, `um` in a file, 5 um/s")
+    '0.1 mm³ of 2 Pa·s at 60° and 20 °C, `um` in a file, 5 µm/s'
+    """
+    parts = _CODE.split(text)
+    for i in range(0, len(parts), 2):
+        for pattern, letters in _LETTERS:
+            parts[i] = pattern.sub(letters, parts[i])
+    return "".join(parts)
 
 
 def axis_unit(size: float, unit: str) -> tuple[float, str]:

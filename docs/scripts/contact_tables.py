@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from device_tables import in_prose
 from validation_tables import grid
 
 import contactkit as ck
 from contactkit.files.structure import library_names
 from contactkit.kinds import SURFACES
 from contactkit.models.library import bundled_scene
+from contactkit.plot.axis_units import in_prose
 from contactkit.units import quantity_text
 
 ONLY_IN_PYTHON = {"heights"}

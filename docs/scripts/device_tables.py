@@ -2,26 +2,10 @@
 
 from __future__ import annotations
 
-import re
-
 from validation_tables import grid
 
 from contactkit.models.library import bundled_scene
-from contactkit.plot.axis_units import in_print
-
-_UNIT = re.compile(
-    r"(?<=[\d.] )(u[mNs]|[mk]?Pa\.s|p?N\.m/rad|N\.m\.s/rad|N\.s/m|N/um|kg\.m2"
-    r"|[cm]?m[23]|degC|deg|mohm|ohm)(?![\w/])"
-)
-
-
-def in_prose(text: str) -> str:
-    """Text with the units behind its numbers in the letters of print: 5 um becomes 5 µm."""
-
-    def printed(match: re.Match[str]) -> str:
-        return in_print(match[1]).replace("ohm", "Ω").replace("/um", "/µm")
-
-    return _UNIT.sub(printed, text)
+from contactkit.plot.axis_units import in_prose
 
 
 def assumption_table(name: str) -> str:

@@ -1,8 +1,9 @@
-"""Errata of chapter 3 with their effects, evaluated, and the checks that show them."""
+"""Errata of chapter 3 with their effects, evaluated, and the pages that show them."""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 
 from validation_tables import grid
@@ -10,9 +11,8 @@ from validation_tables import grid
 from contactkit.as_published.lookup import PUBLISHED, published
 from contactkit.as_published.printed.errata import ERRATA
 from contactkit.gallery.chapter_3.table_4_1 import FLATS, SPHERE
+from contactkit.plot.axis_units import in_prose
 
-VALUES = "tests/as_published/test_published_values.py"
-FORMULAS = "tests/as_published/test_published_formulas.py"
 OTHERS: Mapping[str, float] = {  # arguments that Table 4.1 does not need
     "kelvin_radius": 2e-9,
     "molar_volume": 1.8e-5,
@@ -44,48 +44,66 @@ SAID: Mapping[str, str] = {
 }
 
 
-def _page(slug: str, statement: str) -> str:
-    kind, _, digits = slug.partition("-")
-    name = {"figure": "Fig.", "table": "Table", "section": "Section"}[kind]
-    number = digits.replace("-0", "-").replace("-", ".")
-    return f"[{name} {number}](gallery/{slug}.md): *{statement}*"
-
-
-CHECKS: Mapping[str, str] = {
-    "3.3": f"`{VALUES}::test_what_differs_has_an_erratum_and_what_has_none_agrees`",
-    "3.5": f"`{VALUES}::test_flats_3_11_beside_the_exact_bridge`",
-    "3.7": f"`{VALUES}::test_thin_film_force_3_7_is_right_where_the_film_is_thin`",
-    "3.10": f"`{VALUES}::test_static_force_of_table_4_1_counts_the_surface_tension_twice`",
-    "3.11": _page("figure-3-09", "a few per cent off at the start, and a factor near rupture"),
-    "3.12": _page("figure-3-11", "at 1 nm the printed force is 29 to 46 % too large"),
-    "3.14": f"`{VALUES}::test_asperities_whose_menisci_overlap_have_no_right_value`",
-    "3.18": f"`{FORMULAS}::test_3_19_is_the_integral_of_3_18_at_constant_radius`",
-    "3.19": _page("figure-3-10", "twice that of a film that keeps its volume"),
-    "3.21": f"`{VALUES}::test_what_differs_has_an_erratum_and_what_has_none_agrees`",
-    "3.23": f"`{VALUES}::test_what_differs_has_an_erratum_and_what_has_none_agrees`",
-    "3.25": _page("figure-3-10", "at constant speed it starts at 4 (h_s - h0)/h0 times its mean"),
-    "3.26": f"`{FORMULAS}::test_3_26_is_the_integral_of_3_22_at_constant_volume`",
-    "3.27": _page("figure-3-13", "Eq. (3.27) is zero for 2 nm and 41 to 56 % too large"),
-    "3.33": _page("figure-3-15", "Eq. (3.33) is 40 % too large at 1e4 menisci of 6 nm"),
-    "3.34": _page("table-4-1", "viscous forces between flats are twice those"),
-    "3.35": _page("figure-3-15", "the rise is far below the root of N of Eq. (3.35)"),
-    "3.37": f"`{VALUES}::test_what_differs_has_an_erratum_and_what_has_none_agrees`",
-    "3.39": "`tests/capillary/test_arc_hard.py::test_repelled_pair_turns_from_push_to_pull`",
-    "3.40": "`tests/capillary/test_arc_values.py"
-    "::test_volume_is_that_of_the_circle_turned_about_the_axis`",
-    "3.41": "`tests/capillary/test_arc_properties.py"
-    "::test_contact_radius_is_continuous_where_the_arc_is_straight`",
-    "zero neck": _page("section-3-2-3", "the exact bridge breaks at less than a third of them"),
-    "3.42": _page("figure-3-09", "Eq. (3.42) does not make the heights one curve"),
-    "3.43": f"`{FORMULAS}::test_dimensionless_3_42_and_3_43`",
-    "3.44": f"`{VALUES}::test_every_equation_answers`",
-    "3.51": "`tests/lubrication/test_sliding.py::test_the_overlap_is_what_a_grid_counts`",
-    "3.53": _page("figure-3-18", "the force at the start is 3 pi/4 times that"),
-    "3.55": f"`{VALUES}::test_what_differs_has_an_erratum_and_what_has_none_agrees`",
-    "3.56": _page("figure-3-18", "Eq. (3.56) is too low for a sphere"),
-    "3.59": _page("figure-3-21", "asperities at a given time: N^(1/4), not N^(-1/2)"),
-    "3.61": _page("figure-3-21", "at a given speed: N^(1/2) for asperities, N^0 for menisci"),
+# Pages of the gallery that show the effect.
+SHOWN: Mapping[str, str] = {
+    "3.11": "figure-3-09",
+    "3.12": "figure-3-11",
+    "3.19": "figure-3-10",
+    "3.25": "figure-3-10",
+    "3.27": "figure-3-13",
+    "3.33": "figure-3-15",
+    "3.34": "table-4-1",
+    "3.35": "figure-3-15",
+    "zero neck": "section-3-2-3",
+    "3.42": "figure-3-09",
+    "3.53": "figure-3-18",
+    "3.56": "figure-3-18",
+    "3.59": "figure-3-21",
+    "3.61": "figure-3-21",
 }
+
+# Formulas of the errata, which are plain text in messages, as they are set on the page.
+SET: Mapping[str, str] = {
+    "r1 (cos theta1 + cos theta2)": r"$r_1 (\cos\theta_1 + \cos\theta_2)$",
+    "1 - D / sqrt(D^2 + V / (pi R))": r"$1 - D/\sqrt{D^2 + V/(\pi R)}$",
+    "x_c = r1": "$x_c = r_1$",
+    "n = R / (2 (s - D))": "$n = R/(2 (s - D))$",
+    "x_n0 = 50 h0": "$x_{n0} = 50 h_0$",
+    "x_n0": "$x_{n0}$",
+    "H(x^2)": "$H(x^2)$",
+    "H^2(x)": "$H^2(x)$",
+    "gap D_s": "gap $D_s$",
+    "the D in": "the $D$ in",
+    "H_0 is the height s_0": "$H_0$ is the height $s_0$",
+    "ln((D0 + H0)^2 / (4 D0 H0))": r"$\ln\frac{(D_0 + H_0)^2}{4 D_0 H_0}$",
+    "H0 = 2 D0": "$H_0 = 2 D_0$",
+    "H0 = 3 to 6 D0": "$H_0$ = 3 to 6 $D_0$",
+    "1e-2 R^3": "$10^{-2} R^3$",
+    "theta1 + theta2 = 180 deg": r"$\theta_1 + \theta_2$ = 180°",
+    "eta v / h0": r"$\eta v/h_0$",
+    "Its D should read L": "Its $D$ should read $L$",
+    "3 pi / 4 times": r"$3 \pi/4$ times",
+    "s - D = R/2": "$s - D = R/2$",
+    "41 % at R,": "41 % at $R$,",
+    "1 - D/s instead of ln(s/D)": r"$1 - D/s$ instead of $\ln(s/D)$",
+    "N (R / sqrt(N))^(3/2) is N^(1/4), not N^(-1/2)": r"$N (R/\sqrt N)^{3/2}$ is $N^{1/4}$, not "
+    "$N^{-1/2}$",
+    "as N^(1/2).": "as $N^{1/2}$.",
+    "x/h = ": "$x/h$ = ",
+}
+
+
+_PLAIN = re.compile("|".join(re.escape(plain) for plain in sorted(SET, key=len, reverse=True)))
+
+
+def _set(text: str) -> str:
+    """An erratum with its formulas set."""
+    return in_prose(_PLAIN.sub(lambda found: SET[found[0]], text))
+
+
+def _name(number: str) -> str:
+    name = number if " " in number else f"({number})"
+    return f"[{name}](gallery/{SHOWN[number]}.md)" if number in SHOWN else name
 
 
 def _effect(number: str) -> str:
@@ -104,9 +122,9 @@ def _effect(number: str) -> str:
 
 def errata_table() -> str:
     """Errata of the printed equations of chapter 3."""
-    head = ("equation", "what is printed, and what is right", "effect [%]", "check")
+    head = ("equation", "what is printed, and what is right", "effect [%]")
     rows = [
-        (n if " " in n else f"({n})", text, _effect(n), CHECKS[n])
+        (_name(n), _set(text), in_prose(_effect(n)))
         for n, text in ERRATA.items()
         if n.startswith("3.") or n == "zero neck"
     ]

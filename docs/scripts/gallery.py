@@ -1,8 +1,8 @@
 """Pages of the gallery for the documentation: ``python docs/scripts/gallery.py [NAME ...]``.
 
 Runs ``contactkit gallery`` at full size into out/gallery, where finished data are kept, copies
-pages and PNGs, these with a palette of 128 colours so that they stay small, into docs/gallery, and
-writes the index of all pages that are there.
+pages, the numbers that they link to and PNGs, these with a palette of 128 colours so that they stay
+small, into docs/gallery, and writes the index of all pages that are there.
 """
 
 from __future__ import annotations
@@ -27,6 +27,8 @@ def copy_pages() -> None:
     SHOWN.mkdir(exist_ok=True)
     for page in sorted(MADE.glob("*.md")):
         shutil.copyfile(page, SHOWN / page.name)
+        if f"({page.stem}.csv)" in page.read_text(encoding="utf-8"):
+            shutil.copyfile(page.with_suffix(".csv"), SHOWN / f"{page.stem}.csv")
     (SHOWN / "index.md").write_text(index(scripts(), SHOWN), encoding="utf-8")
     for picture in sorted(MADE.glob("*.png")):
         with Image.open(picture) as image:

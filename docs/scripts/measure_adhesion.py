@@ -71,9 +71,8 @@ def steps() -> str:
             row.append(f"{change:.0e}")
         one = found[33]
         row.append(f"{100 * sum(jump.energy_lost for jump in one.jumps) / one.loop_energy:.0f} %")
-        row.append(f"{one.loop_energy / one.plan.grid.area / WORK:.3f} w")
         rows.append(row)
-    head = ["window", "approach, 9 or 33 levels", "separation", "of the loop in jumps", "loop"]
+    head = ["window", "approach, 9 or 33 levels", "separation", "of the loop in jumps"]
     return grid(head, rows)
 
 

@@ -53,9 +53,8 @@ PAGES: Mapping[str, Page] = {
     ),
     "gradients": Page("img/gradient-*.png", 0.2, (("gradients",),)),
     "adhesion": Page("adhesion.md: levels of a curve, and its picture", 5, _measured("adhesion")),
-    "claims": Page("errata.md: statements of chapter 2", 3, _measured("claims")),
     "pictures": Page(
-        "img/: figures of shipped scenes and examples; head-disk*.md, accuracy.md: head-disk",
+        "img/: figures of shipped scenes and examples; head-disk*.md",
         20,
         (("pictures.py",),),
     ),

@@ -11,7 +11,6 @@ import contextlib
 import csv
 import io
 import json
-import math
 import re
 import subprocess
 import sys
@@ -68,10 +67,6 @@ COLUMNS = {  # of a load curve: heading and factor
     "plastic_fraction": ("plastic [%]", 100.0),
     "relative_meniscus_force": ("meniscus / load", 1.0),
 }
-COST_PICTURE = (
-    "![Error of the pressure over seconds for three solvers; error of the area over the grid; "
-    "seconds by effect](img/head-disk-cost.png)"
-)
 NUMBERS = {  # of the run: what it is, factor, unit
     "load": ("load", 1e3, "mN"),
     "max_pressure": ("maximum pressure", 1e-9, "GPa"),
@@ -112,25 +107,6 @@ def load_curve(text: str) -> str:
         for row in rows
     ]
     return grid([heading for heading, _ in COLUMNS.values()], cells)
-
-
-def cost_table(text: str) -> str:
-    """Cost of the head-disk interface from the CSV file that the run wrote."""
-    rows = [
-        (
-            row["method"],
-            row["setting"],
-            _number(row["error [-]"], ".1e"),
-            _number(row["seconds [s]"], ".3g"),
-        )
-        for row in csv.DictReader(io.StringIO(text))
-    ]
-    return grid(("method", "setting", "relative error", "seconds"), rows)
-
-
-def _number(text: str, digits: str) -> str:
-    value = float(text or "nan")
-    return "-" if math.isnan(value) else format(value, digits)
 
 
 def keep(folder: Path, names: Mapping[str, str], colours: int = 128) -> None:
@@ -183,8 +159,7 @@ def run(scene: str, command: str, folder: Path) -> str:
 def blocks(command: str, folder: Path, printed: str) -> Mapping[str, str]:
     """Blocks of measured numbers of the head-disk interface."""
     if command == "cost":
-        table = cost_table((folder / "cost.csv").read_text("utf-8"))
-        return {"head-disk cost": f"{COST_PICTURE}\n\n{table}"}
+        return {}
     curve = load_curve((folder / "study.csv").read_text("utf-8"))
     numbers = head_disk_numbers(json.loads(printed))
     return {"head-disk numbers": numbers, "head-disk load curve": curve}

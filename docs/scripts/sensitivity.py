@@ -12,7 +12,6 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from device_tables import in_prose
 from matplotlib.ticker import MaxNLocator, PercentFormatter
 from measured_blocks import write_blocks
 from PIL import Image
@@ -25,6 +24,7 @@ from contactkit.models.injector import assumptions as injector
 from contactkit.models.injector.delays import closing_lag, residual_gap, sticking_time
 from contactkit.models.micromirror import assumptions as micromirror
 from contactkit.models.micromirror.release import humidity_limit, voltage_needed
+from contactkit.plot.axis_units import in_prose
 from contactkit.plot.style import save
 from contactkit.scene.description import value_text
 from contactkit.studies.sensitivity import Sensitivity

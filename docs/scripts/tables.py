@@ -20,15 +20,11 @@ from api_pages import api_table
 from contact_tables import head_disk_table, material_table, surface_kinds
 from device_tables import assumption_table
 from errata_table import errata_table
-from liquid_tables import law_table, liquid_source_table, liquid_table
+from liquid_tables import liquid_source_table, liquid_table
 from validation_tables import (
-    divided_force_table,
     division_table,
-    exact_table,
     grid,
     limit_table,
-    nano_force_table,
-    nano_table,
 )
 
 import contactkit as ck
@@ -185,26 +181,15 @@ def named(kinds: Iterable[tuple[str, type]], tag: str) -> str:
 
 
 # Arguments of effects other than numbers, to construct them for their sources.
-OBJECTS = {
-    "asperities": ck.AsperityPopulation(density=1.0, radius=1.0),
-    "law": ck.ExponentialAttraction(work_of_adhesion=1.0, range=1.0),
-    "path": (ck.TangentialStep(ratio=1.0),),
-}
-PAIRS = {ck.ContactAngleHysteresis: {"advancing_lower": 1.0, "receding_lower": 1.0}}
 
 
 def effect_table(kinds: Iterable[type[Effect]]) -> str:
     """Effects a scene may call for."""
     rows = []
     for kind in kinds:
-        needed = [f.name for f in attrs.fields(kind) if f.default is attrs.NOTHING]
-        must = PAIRS.get(kind, {name: OBJECTS.get(name, 1.0) for name in needed})
         role = next(word for base, word in ROLES.items() if issubclass(kind, base))
-        source = "; ".join(kind(**must).sources)
-        rows.append((f"`{kind.name}`", f"`{kind.__name__}`", role, kind.summary, source))
-    return grid(
-        ("in files", "in Python", "role", "what it is", "source, as it is by default"), rows
-    )
+        rows.append((f"`{kind.name}`, `{kind.__name__}`", role, kind.summary))
+    return grid(("in files, in Python", "role", "what it is"), rows)
 
 
 def _amount(port: Port) -> str:
@@ -312,14 +297,9 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "liquid sources": liquid_source_table,
     **port_tables(),
     "errata": errata_table,
-    "nano": nano_table,
     "division": division_table,
-    "divided force": divided_force_table,
-    "nano forces": nano_force_table,
-    "temperature laws": law_table,
     "assumptions": lambda: assumption_table("fuel-injector"),
     "mirror assumptions": lambda: assumption_table("micromirror"),
-    "arc against exact": exact_table,
     "limits": limit_table,
     "api": api_table,
 }

@@ -141,6 +141,8 @@ def completions(capsys, monkeypatch, *words):
     ("words", "offered"),
     [
         (["p"], ["plan", "page"]),
+        (["ap"], ["app"]),
+        (["app", "con"], ["contact-stop", "con"]),
         (["run", "fuel"], ["fuel-injector", "fuel"]),  # the last: a file that begins so
         (["run", "--over"], ["--overwrite"]),
         (["list", "li"], ["liquids"]),

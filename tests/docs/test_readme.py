@@ -28,6 +28,7 @@ SLOW = (
     "adhesion",
     "hosts",
     "films",
+    "film-solver",
     "menisci",
     "studies",
     "figures",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-import re
+import tomllib
 from functools import cache
 from pathlib import Path
 
@@ -20,15 +20,18 @@ ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "errata.md"
 
 
+CHECKS = tomllib.loads(Path(__file__).with_name("errata_checks.toml").read_text("utf-8"))["row"]
+
+
 def entries():
-    """Rows of the tables whose last column is the check."""
+    """Rows of the tables whose last column is the effect."""
     is_errata, found = False, []
     for line in PAGE.read_text("utf-8").splitlines():
         cells = [cell.strip() for cell in line.strip("|").split(" | ")]
         if not line.startswith("| "):
             is_errata = is_errata and line.startswith("|---")
         elif cells[0] in {"equation", "where"}:
-            is_errata = cells[-1] == "check"
+            is_errata = cells[-1] == "effect [%]"
         elif is_errata:
             found.append(cells)
     return found
@@ -39,8 +42,10 @@ ENTRIES = entries()
 
 @cache
 def statements(page):
-    lines = (PAGE.parent / page).read_text("utf-8").splitlines()
-    return [line.split(" | ")[1] for line in lines if line.startswith(("| yes |", "| **no** |"))]
+    """Those of the checks of a page of the gallery."""
+    text = (PAGE.parent / page).read_text("utf-8")
+    checks = text.partition("<summary>Checks")[2].partition("</details>")[0]
+    return [line.split(" | ")[0] for line in checks.splitlines() if line.startswith("| ")]
 
 
 @cache
@@ -49,22 +54,23 @@ def functions(file):
     return {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
 
 
-def test_every_entry_names_a_check_and_an_effect():
-    bad = [
-        row[0] for row in ENTRIES if not re.search(r"\]\(gallery/|`tests/", row[-1]) or not row[-2]
-    ]
-    assert not bad
+def test_every_entry_has_a_check_and_an_effect():
+    """In the same order; a page that shows an entry is the one that its name links to."""
     assert len(ENTRIES) > 100
+    assert [row[0] for row in ENTRIES if not row[-1]] == []
+    named = [
+        f"[{check['of']}]({check['page']})" if "page" in check else check["of"] for check in CHECKS
+    ]
+    assert [row[0] for row in ENTRIES] == named
 
 
-@pytest.mark.parametrize("row", ENTRIES, ids=lambda row: row[0][:40])
-def test_a_check_that_is_named_is_there(row):
-    for page, words in re.findall(r"\]\((gallery/[\w-]+\.md)\): \*(.+?)\*", row[-1]):
-        assert any(words in one for one in statements(page)), f"no check of {page} states {words}"
-    for file, name in re.findall(r"`(tests/[\w/]+\.py)::(\w+)`", row[-1]):
+@pytest.mark.parametrize("check", CHECKS, ids=lambda check: check["of"][:40])
+def test_a_check_that_is_named_is_there(check):
+    if "page" in check:
+        assert any(check["says"] in one for one in statements(check["page"])), check
+    else:
+        file, _, name = check["test"].partition("::")
         assert name in functions(file), f"{file} has no {name}"
-    named = re.findall(r"\]\(gallery/", row[-1])
-    assert len(named) == len(re.findall(r"\]\(gallery/[\w-]+\.md\): \*.+?\*", row[-1]))
 
 
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])

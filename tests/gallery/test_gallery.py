@@ -85,7 +85,14 @@ def test_a_page_has_its_files(page, tmp_path, capsys):
     kinds = {"csv", "md", "npz", "pdf", "png", "svg"}
     assert {path.suffix[1:] for path in out.glob("squares.*")} == kinds
     text = (out / "squares.md").read_text()
-    for words in ("Fig. 9.9: Squares", "They grow.", "They do.", "squares.png", "| yes |", "slope"):
+    for words in (
+        "Fig. 9.9: Squares",
+        "They grow.",
+        "They do.",
+        "squares.png",
+        "1 of 1 hold",
+        "slope",
+    ):
         assert words in text
     assert "Draft" not in text
     rows = list(csv.reader((out / "squares.csv").read_text().splitlines()))
@@ -125,7 +132,7 @@ def test_a_check_that_does_not_hold_fails_the_command(page, tmp_path, capsys):
     printed = capsys.readouterr().out
     assert "does not hold: squares grow ([3. 5.])" in printed
     assert "1 with a check that does not hold" in printed
-    assert "| **no** |" in (tmp_path / "out" / "squares.md").read_text()
+    assert "| **does not hold**: squares grow |" in (tmp_path / "out" / "squares.md").read_text()
 
 
 def test_a_page_that_cannot_be_written_is_reported_beside_its_checks(

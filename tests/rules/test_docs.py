@@ -77,10 +77,10 @@ def test_a_page_that_there_is_not_is_refused_with_the_list(pages, capsys, monkey
 def test_pages_are_written_and_one_that_fails_is_reported(pages, capsys, monkeypatch):
     wrote = []
     monkeypatch.setattr(pages, "write", lambda name: wrote.append(name) or name != "films")
-    assert pages.main(["films", "claims"]) == 1
-    assert wrote == ["films", "claims"]
+    assert pages.main(["films", "gradients"]) == 1
+    assert wrote == ["films", "gradients"]
     assert "failed: films" in capsys.readouterr().err
-    assert pages.main(["claims"]) == 0
+    assert pages.main(["gradients"]) == 0
 
 
 def test_every_measured_block_has_a_script_that_writes_it():

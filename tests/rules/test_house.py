@@ -13,6 +13,7 @@ import subprocess
 import sys
 import typing
 from collections import Counter
+from importlib.util import find_spec
 from pathlib import Path
 
 import attrs
@@ -555,6 +556,10 @@ def test_a_number_of_c_without_a_reason_would_be_seen():
 # Doctests -----------------------------------------------------------------------------------
 
 
+# The page of the local app; `make test` has no extra app.
+NEEDS_MARIMO = {f"contactkit.local_app.{one}" for one in ("elements", "layout", "notebook")}
+
+
 @functools.cache
 def module_names():
     import contactkit.fmu
@@ -566,7 +571,7 @@ def module_names():
         names += [
             info.name for info in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
         ]
-    return sorted(set(names))
+    return sorted(set(names) - NEEDS_MARIMO if find_spec("marimo") is None else set(names))
 
 
 def room(name):

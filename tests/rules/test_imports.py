@@ -47,7 +47,7 @@ FLOORS = [
     ["benchmarks"],
     ["models report"],
     ["app"],
-    ["gallery"],
+    ["gallery", "local_app"],
     ["commands"],
     ["cli"],
     ["__main__"],

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...files.csv_rows import write_rows
 from ...files.scenes import write_whole
+from ...plot.axis_units import in_prose
 from .page import Check, Data, Table
 from .scripts import CHAPTERS, Script
 
@@ -20,6 +21,8 @@ _TITLES = {
     "deforming": "Films between bodies that deform, by a second method",
     "future_work": "Future work of the source, as far as it is done",
 }
+
+_COLUMNS, _ROWS = 4, 30  # of a table that a telephone shows
 
 
 class Made(NamedTuple):
@@ -55,32 +58,52 @@ def _page(
     parts = [f"# {page.label}: {page.title}"]
     if made.draft:
         parts.append("**Draft sizes**: numbers and pictures are those of a coarse run.")
-    parts += [f"![{page.label}: {page.title}]({name}.png)" for name in names]
-    parts += [f"**Claim of the source.** {page.claim}", f"**Verdict.** {page.verdict}"]
+    parts += [f"![{page.label}]({name}.png)" for name in names]
+    parts += [f"**Claim.** {page.claim}", f"**Verdict.** {page.verdict}"]
     if page.choices:
         parts.append(f"**Our choices.** {page.choices}")
-    parts.append("## Checks")
-    held = [("yes" if c.holds else "**no**", c.statement, c.measured) for c in checks]
-    parts.append(_grid(("holds", "statement", "measured"), held))
+    parts += _checked(checks)
     if table is not None:
-        parts += ["## Numbers", _grid(table.head, [[_cell(v) for v in row] for row in table.rows])]
-    parts += ["## How it was made", _grid(("", ""), list(_facts(script, made).items()))]
-    if made.notes:
-        notes = "\n".join(f"- {note}" for note in made.notes)
-        parts.append(f"Warnings of the run, each once:\n\n{notes}")
-    return "\n\n".join(parts) + "\n"
+        parts += _numbers(script, table)
+    parts += [_made(script, made), *_ranges(made.notes)]
+    return in_prose("\n\n".join(parts) + "\n")
 
 
-def _facts(script: Script, made: Made) -> Mapping[str, str]:
+def _checked(checks: Sequence[Check]) -> list[str]:
+    """Statements with what decides them; open if one does not hold."""
+    rows = [
+        (c.statement if c.holds else f"**does not hold**: {c.statement}", c.measured)
+        for c in checks
+    ]
+    n_held = sum(c.holds for c in checks)
+    title = f"Checks: {n_held} of {len(checks)} hold"
+    return _folded(title, _grid(("statement", "measured"), rows), is_open=n_held < len(checks))
+
+
+def _numbers(script: Script, table: Table) -> list[str]:
+    """The table, or a link to it where it is too wide for a page or too long."""
+    if len(table.head) > _COLUMNS or len(table.rows) > _ROWS:
+        return [f"Numbers: [{script.slug}.csv]({script.slug}.csv)."]
+    rows = [[_cell(value) for value in row] for row in table.rows]
+    return _folded("Numbers", _grid(table.head, rows))
+
+
+def _folded(title: str, text: str, is_open: bool = False) -> list[str]:
+    """Parts of a page that a reader unfolds."""
+    begin = f'<details markdown="1"{" open" if is_open else ""}>\n<summary>{title}</summary>'
+    return [begin, text, "</details>"]
+
+
+def _made(script: Script, made: Made) -> str:
     page = script.page
-    facts = {
-        "code": f"`examples/gallery/{script.chapter}/{script.path.name}`",
-        "command": f'`contactkit gallery "{page.name}"`',
-        "grid": page.grid,
-        "seeds": page.seeds,
-        "time": f"{made.seconds:.2g} s of CPU, one thread",
-    }
-    return {name: text for name, text in facts.items() if text}
+    facts = (page.grid, page.seeds and f"seeds {page.seeds}", f"{made.seconds:.2g} s of CPU")
+    return f'`contactkit gallery "{page.name}"`: {"; ".join(fact for fact in facts if fact)}.'
+
+
+def _ranges(notes: Sequence[str]) -> list[str]:
+    """What warned of its range, without the advice; numpy's own warnings have no number."""
+    found = [note.partition(":")[0] for note in notes if " = " in note]
+    return [f"Out of range in some of the runs: {'; '.join(found)}."] if found else []
 
 
 def _cell(value: Any) -> str:
@@ -113,14 +136,12 @@ def index(scripts: Sequence[Script], out: Path) -> str:
 
 def _held(page: str) -> str:
     """Outcome of the checks of a page that is written."""
-    held = sum(line.startswith("| yes |") for line in page.splitlines())
-    failed = sum(line.startswith("| **no** |") for line in page.splitlines())
-    return f"{held} of {held + failed} hold"
+    return page.partition("<summary>Checks: ")[2].partition("</summary>")[0]
 
 
 _LEAD = """\
 Every figure and table of the source that has data, computed again: what it states, what we find,
 and the checks that decide it. A statement that is wrong stays as a check of the corrected one, and
-the page names the reason. `contactkit gallery` makes all of them; each page names the script that
-makes it. Left out are schematics, without anything to compute: Figs. 1.1, 2.1a, 2.4 to 2.7, 2.22,
-2.26, 3.1 to 3.6, 3.17 and 3.22 to 3.24."""
+the page names the reason. `contactkit gallery` makes all of them; each page names the command
+that makes it. Left out are schematics, without anything to compute: Figs. 1.1, 2.1a, 2.4 to 2.7,
+2.22, 2.26, 3.1 to 3.6, 3.17 and 3.22 to 3.24."""

@@ -128,7 +128,7 @@ class ExponentialAttraction(AttractionLaw):
     """
 
     kind: ClassVar[str] = "exponential"
-    source: ClassVar[str] = "tension w/r exp(-g/r), docs/physics/rough-adhesion.md"
+    source: ClassVar[str] = "tension w/r exp(-g/r)"
 
     def on_grid(self, self_influence: float) -> TensionLaw:
         """See `AttractionLaw.on_grid`."""

@@ -257,7 +257,7 @@ class ContinuousHardness(LayeredRule):
     """
 
     kind: ClassVar[str] = "continuous"
-    source: ClassVar[str] = "Eq. (2.41) summed over all interfaces, docs/physics/hardness.md"
+    source: ClassVar[str] = "Eq. (2.41) summed over all interfaces"
 
     shift: float = field(default=0.3, validator=non_negative, metadata=si("-"))
 

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from contactkit.benchmarks.table import STUDIES, AccuracyStudy
+from contactkit.plot.axis_units import in_prose
 from contactkit.work_precision import Point
 
-from .page import conditions, load, machine, number, picture, slug, table
+from .page import conditions, folded, load, machine, number, picture, table
 
 __all__ = ["ANALYSES", "NAME", "digit", "draw", "measure", "page", "points_of", "shown"]
 
@@ -148,11 +149,7 @@ def _costs(factor: float) -> str:
 def _span(points: Points, method: str) -> str:
     """From which error at which cost to which a method goes."""
     seconds, errors = _curve(points, method)
-    first, last = np.argmax(errors), np.argmin(errors)
-    return (
-        f"{number(errors[first])} in {_seconds(seconds[first])} s, "
-        f"{number(errors[last])} in {_seconds(seconds[last])} s"
-    )
+    return ", ".join(_at(errors[i], seconds[i]) for i in (np.argmax(errors), np.argmin(errors)))
 
 
 def _contact(studies: Mapping[str, Points]) -> str:
@@ -189,35 +186,35 @@ def page(data: Mapping[str, Any]) -> str:
         "![Separation: error over CPU time, over the tolerance and over cells or steps]"
         f"({NAME}-separation.png)",
         _peer_sentence(peers),
-        "*Error* is relative, against the solution that each study names; it is that of the "
-        "numerics. Whether a model holds is another matter: each result prints its ranges of "
-        "validity. *CPU seconds* are those of the process on one thread. A digit's cost is the "
-        "slope of the logarithms over all settings of a method; where there is none the settings "
-        "are solids, shapes or sizes.",
-        "## All studies",
-        table(
-            ("study", "largest error", "least error", "a digit more costs"),
-            (_summary(one, studies[name]) for name, one in STUDIES.items()),
-        ),
-        "A study is `contactkit cost NAME`, with the names of "
-        "`contactkit/benchmarks/table.py`; `contactkit cost FILE` measures a scene of yours.",
+        "*Error* is relative, and that of the numerics; whether a model holds, each result prints "
+        "with its ranges of validity. *Seconds* are CPU time on one thread. A digit's cost is the "
+        "slope of the logarithms over all settings of a method; where there is none, the settings "
+        "are solids, shapes or sizes. `contactkit cost NAME` measures a study and prints every "
+        f"setting (as in the [data]({NAME}.json)), `contactkit cost FILE` a scene of yours. "
+        "[Why the errors are what they are](../accuracy.md).",
+    ]
+    for half in ("contact", "separation"):
+        some = [(one, studies[name]) for name, one in STUDIES.items() if one.half == half]
+        head = ("study: error of, against", "largest and least error", "a digit more")
+        notes = [f"- `{one.name}`: {one.note}" for one, _ in some if one.note]
+        parts += [f"## {half.capitalize()}", table(head, (_summary(*each) for each in some))]
+        parts.append("\n".join(notes))
+    parts += [
         *_peers(peers),
-        "## Without a tolerance",
-        "These are closed forms, roots to round-off, or solves of the functions above.",
-        table(
-            ("function", "its numbers are", "error kept by"),
-            ((f"`{name}`", what, f"`{test}`") for name, (what, test) in ANALYSES.items()),
-        ),
-        "## Tables of the studies",
-        *(_study(one, studies[name]) for name, one in STUDIES.items()),
-        "## How it was made",
-        "`make pages PAGES=demands` measures everything but other programs, which `make bench` "
-        "does (`docs/demands/peers.json`); `python docs/scripts/demands accuracy-and-cost --draw` "
-        "makes the page from the data, `docs/demands/accuracy-and-cost.json`. "
-        "[More on accuracy](../accuracy.md) explains the solvers and their errors.",
+        "## Functions without a tolerance",
+        "\n".join(f"- {names}: {what}" for what, names in _untoleranced().items()),
+        "## Measured",
         conditions(data["measured"]),
     ]
-    return "\n\n".join(parts) + "\n"
+    return in_prose("\n\n".join(parts) + "\n")
+
+
+def _untoleranced() -> Mapping[str, str]:
+    """Functions of `ANALYSES`, by what their numbers are."""
+    found: dict[str, list[str]] = {}
+    for name, (what, _) in ANALYSES.items():
+        found.setdefault(what, []).append(f"`{name}`")
+    return {what: ", ".join(names) for what, names in found.items()}
 
 
 def _seconds(value: float | None) -> str:
@@ -228,79 +225,19 @@ def _seconds(value: float | None) -> str:
 
 def _summary(study: AccuracyStudy, points: Points) -> tuple[str, ...]:
     """A study: what its settings span, and what a digit costs where they buy digits."""
-    title = f"[{study.title.partition(':')[0]}](#{slug(study.title)})"
-    if study.digits:
-        seconds, errors = _curve(points, study.digits)
-        ends = [(errors[i], seconds[i]) for i in (np.argmax(errors), np.argmin(errors))]
-        more = _costs(digit(points, study.digits))
-    else:
-        some = [p for p in points if p["error"] is not None and not p["is_model"]]
-        some.sort(key=lambda p: -p["error"])
-        ends = [(p["error"], p["seconds"]) for p in (some[0], some[-1])]
-        more = "-"
-    return title, *(f"{number(error)} in {_seconds(cost)} s" for error, cost in ends), more
-
-
-def _study(study: AccuracyStudy, points: Points) -> str:
-    used = ", ".join(f"`{one}`" for one in study.solvers)
-    text = (
-        f"`contactkit cost {study.name}`, for {used}; error of the {study.quantity} against "
-        f"{study.judge}.{' ' * bool(study.note)}{study.note}"
+    title = f"`{study.name}`: {study.title}; {study.quantity} against {study.judge}"
+    method = study.digits
+    some = [p for p in points if p["error"] is not None and not p["is_model"]]
+    some = [p for p in some if p["method"] == method and p["error"]] if method else some
+    some.sort(key=lambda p: -p["error"])
+    span = "; ".join(
+        f"{_at(p['error'], p['seconds'])} ({p['setting']})" for p in (some[0], some[-1])
     )
-    methods = dict.fromkeys(p["method"] for p in points)
-    settings = dict.fromkeys(p["setting"] for p in points)
-    by = {(p["method"], p["setting"]): p for p in points}
-    if len(methods) == 1 or len(settings) == 1 or len(by) < len(methods) * len(settings):
-        shown_as = _listed(points)
-    else:
-        shown_as = _crossed(by, tuple(methods), tuple(settings))
-    return "\n\n".join((f"### {study.title}", text, shown_as))
+    return title, span, _costs(digit(points, method)) if method else "-"
 
 
-def _name(point: Mapping[str, Any]) -> str:
-    return point["method"] + (" (another model)" if point["is_model"] else "")
-
-
-def _work(point: Mapping[str, Any]) -> str:
-    return ", ".join(f"{n} {unit}" for unit, n in point["counts"].items() if unit != "FFTs")
-
-
-def _error(point: Mapping[str, Any]) -> str:
-    return "refused" if point["error"] is None else number(point["error"])
-
-
-def _listed(points: Points) -> str:
-    """A row for each point."""
-    rows = ((_name(p), p["setting"], _error(p), _seconds(p["seconds"]), _work(p)) for p in points)
-    return table(("method", "setting", "error", "CPU seconds", "work"), rows)
-
-
-def _crossed(
-    by: Mapping[tuple[str, str], Mapping[str, Any]], methods: Sequence[str], settings: Sequence[str]
-) -> str:
-    """A row for each setting, a column for each method; seconds and work once if they share it."""
-    heads = [_name(by[method, settings[0]]) for method in methods]
-    rows = []
-    is_shared = all(
-        len({(by[m, s]["seconds"], _work(by[m, s])) for m in methods}) == 1 for s in settings
-    )
-    for setting in settings:
-        some = [by[method, setting] for method in methods]
-        if is_shared:
-            cost = [_seconds(some[0]["seconds"]), _work(some[0])]
-            rows.append((setting, *map(_error, some), *cost))
-        else:
-            rows.append((setting, *(_both(p) for p in some)))
-    if is_shared:
-        return table(("setting", *heads, "CPU seconds", "work"), rows)
-    return table(("setting", *(f"{head}: error, CPU seconds, work" for head in heads)), rows)
-
-
-def _both(point: Mapping[str, Any]) -> str:
-    if point["error"] is None:
-        return "refused"
-    cells = _error(point), f"{_seconds(point['seconds'])} s", _work(point)
-    return ", ".join(cell for cell in cells if cell)
+def _at(error: float, seconds: float) -> str:
+    return f"{number(error)} in {_seconds(seconds)} s"
 
 
 # Other programs ---------------------------------------------------------------------------------
@@ -331,34 +268,35 @@ def _peers(found: Mapping[str, Any]) -> list[str]:
     """The section on other programs."""
     rows = []
     for row in found["rows"]:
-        peers = (_peer(row["peers"].get(name)) for name in _PEERS)
         ratio = _ratio(row)
-        count = "-" if row["convolutions"] is None else str(row["convolutions"])
-        own = f"{_seconds(row['seconds'])} ({number(row['error'])})", _seconds(row["plain"])
+        own = f"{_seconds(row['seconds'])} ({number(row['error'])})"
         over = "-" if ratio is None else f"{ratio:.1f}"
-        rows.append((row["what"], str(row["n"]), count, *own, *peers, over))
-    heads = ("what", "pixels a side", "convolutions", "contactkit", "without numba and ducc0")
+        rows.append((f"{row['what']}, {row['n']}", own, _fastest(row["peers"]), over))
     return [
         "## Other programs",
-        "The same problems by contactkit and by other programs from PyPI, side by side, by `make "
-        f"bench`: {found['conditions']}.",
+        "The same problems by contactkit and by other programs from PyPI, side by side, in one "
+        f"run ({found['conditions']}).",
         f"![CPU seconds of contactkit and of other programs, problem by problem]({NAME}-peers.png)",
         "CPU seconds on one thread, and in brackets the error: violation of the conditions of "
         "contact or slip, by an independent operator, over the rms roughness; of leakage the "
-        "difference of both fluxes. *>*: not accurate to 1e-8 (adhesion: 1e-6), it would take "
-        "longer still. Rough contacts with set-up, as aspher makes its operators within its "
-        "solve; the others are prepared solves on both sides. The last column is the fastest "
-        "accurate program over contactkit.",
-        table((*heads, *_PEERS, "over contactkit"), rows),
+        "difference of both fluxes. *Other* is the fastest program that is accurate to 1e-8 "
+        "(adhesion: 1e-6); *>*: none is, and it would take longer still. Rough contacts with "
+        "set-up. Areas, forces and plastic volumes agree to six digits. For slip coupled to the "
+        "pressure by Coulomb's law and for slip on layers no other package was found. "
+        "[All programs, and contactkit without numba and ducc0](peers.json).",
+        folded(
+            "The table: seconds of both, and their ratio",
+            table(("problem, pixels a side", "contactkit", "other", "times"), rows),
+        ),
         *found["left_out"],
     ]
 
 
-def _peer(found: Mapping[str, Any] | None) -> str:
-    if found is None:
-        return "-"
-    error = "" if found["error"] is None else f" ({number(found['error'])})"
-    return f"{'' if found['is_good'] else '> '}{_seconds(found['seconds'])}{error}"
+def _fastest(peers: Mapping[str, Mapping[str, Any]]) -> str:
+    """The fastest accurate peer, or the fastest of those that are not."""
+    name, peer = min(peers.items(), key=lambda one: (not one[1]["is_good"], one[1]["seconds"]))
+    error = "" if peer["error"] is None else f" ({number(peer['error'])})"
+    return f"{name} {'' if peer['is_good'] else '> '}{_seconds(peer['seconds'])}{error}"
 
 
 # Pictures ---------------------------------------------------------------------------------------

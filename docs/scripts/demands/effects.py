@@ -1,24 +1,32 @@
-"""Page of the effects: role, formula, source, validity, cost, and the scenes that list each."""
+"""Page of the effects: formula, source, validity and cost of each."""
 
 from __future__ import annotations
 
-import inspect
 import re
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from contactkit.benchmarks.timing import cost
 from contactkit.kinds import CONTACT_EFFECTS, SEPARATION_EFFECTS, SLIDING_EFFECTS
+from contactkit.plot.axis_units import in_prose
 
 from .effect_scenes import ENTRIES
-from .page import conditions, machine, picture, slug, table
+from .page import conditions, folded, machine, picture, table
 
 __all__ = ["NAME", "draw", "lists", "measure", "page"]
 
 NAME = "effects"
 ROOT = Path(__file__).parents[3]
 KINDS = {"Separation": SEPARATION_EFFECTS, "Sliding": SLIDING_EFFECTS, "Contact": CONTACT_EFFECTS}
+# Scenes of several effects, by what the page calls them.
+_SCENES = {
+    "the oil film": "a disc of 3.175 mm pulled by 40 N off 0.16 mm3 of engine oil, from 5 to 25 um",
+    "the drawn bridge": "1 mm3 of an oil of 1 Pa.s between spheres of 4 mm, drawn from 50 um to "
+    "1.3 mm at 0.5 mm/s",
+    "the rough contact": "steel under a rough flat, 2 um wide, 256 x 256 pixels, 200 MPa",
+}
 _WHERE = ("models", "examples", "contactkit/data/templates")
 
 
@@ -63,45 +71,31 @@ def page(data: Mapping[str, Any]) -> str:
     parts = [
         "# Effects",
         "A scene lists the effects it calls for; nothing else is prepared, computed, allocated or "
-        "imported. For each effect: its role, formula, source and range of validity, and what it "
-        "costs: a scene is run with the effect and without it, and the difference is what leaving "
-        "it out saves.",
+        "imported. Of each effect: what it is, with a link to its equations, its source, the "
+        "[validity numbers](../physics.md#validity-numbers) it adds, and what leaving it out "
+        "saves.",
         "![Seconds and memory of a scene with and without each effect](effects.png)",
-        "*Convolutions* are applications of the elastic operator, *right-hand sides* evaluations "
-        "of the equation of motion. *Memory* is the peak of what Python and numpy allocate in plan "
-        "and run (`tracemalloc`). Seconds of plan and run. Where a saving is negative the run is "
-        "longer without the effect: a film that cavitates or breaks early needs fewer steps.",
+        "Seconds of CPU of plan and run; memory is the peak of what Python and numpy allocate. "
+        "Some scenes run longer without the effect: a film that cavitates or breaks early needs "
+        "fewer steps.",
+        f"Scenes: {'; '.join(f'*{name}* is {what}' for name, what in _SCENES.items())}.",
     ]
     for title, registry in KINDS.items():
         rows = [_row(kind, data["effects"][kind.name]) for kind in registry]
-        head = ("effect", "seconds with", "without", "saved", "memory saved", "counts saved")
-        parts += [f"## {title}", table(head, rows)]
-        parts += [_section(kind, data["effects"][kind.name]) for kind in registry]
-    parts += [
-        "## How it was made",
-        "`make pages PAGES=demands` runs all scenes, which are in "
-        "`docs/scripts/demands/effect_scenes.py`; "
-        "`python docs/scripts/demands effects --draw` makes the page from the data, "
-        "`docs/demands/effects.json`. A registered effect without an entry fails the tests.",
-        conditions(data["measured"]),
-    ]
-    return "\n\n".join(parts) + "\n"
+        head = ("effect", "with [s]", "without [s]", "memory saved")
+        parts += [f"## {title}", folded("Seconds and memory", table(head, rows))]
+        parts.append("\n".join(_section(kind, data["effects"][kind.name]) for kind in registry))
+    parts += ["## Measured", conditions(data["measured"]) + " [Data](effects.json)."]
+    return in_prose("\n\n".join(parts) + "\n")
 
 
 def _row(kind: Any, found: Mapping[str, Any]) -> tuple[str, ...]:
-    name = f"[{kind.name}](#{slug(kind.__name__)})"
+    name = f"`{kind.name}`"
     with_it, without = found["with"], found["without"]
     if without is None:
-        return name, _seconds(with_it["seconds"]), "-", "-", "-", "-"
-    saved = with_it["seconds"] - without["seconds"]
-    return (
-        name,
-        _seconds(with_it["seconds"]),
-        _seconds(without["seconds"]),
-        f"{100.0 * saved / with_it['seconds']:.0f} %",
-        _memory(with_it["memory"] - without["memory"]),
-        ", ".join(_saved_counts(with_it["counts"], without["counts"])) or "none",
-    )
+        return name, _seconds(with_it["seconds"]), "-", "-"
+    saved = _memory(with_it["memory"] - without["memory"])
+    return name, _seconds(with_it["seconds"]), _seconds(without["seconds"]), saved
 
 
 def _seconds(value: float) -> str:
@@ -110,29 +104,31 @@ def _seconds(value: float) -> str:
 
 def _memory(value: float) -> str:
     """Memory [MiB], in the unit that suits it."""
-    return f"{value:.1f} MiB" if abs(value) >= 0.95 else f"{1024.0 * value:.0f} KiB"
+    return f"{value:.1f} MiB" if abs(value) >= 0.95 else f"{round(1024.0 * value)} KiB"
 
 
-def _saved_counts(with_it: Mapping[str, int], without: Mapping[str, int]) -> list[str]:
-    return [f"{n - without[k]} {k}" for k, n in with_it.items() if n != without[k]]
+@cache
+def _explained() -> Mapping[str, str]:
+    """Page of docs/physics that explains an effect, by its name in files."""
+    found = {}
+    for path in sorted((ROOT / "docs" / "physics").glob("*.md")):
+        names = re.findall(r"effect `([\w-]+)`", path.read_text(encoding="utf-8"))
+        found |= dict.fromkeys(names, f"../physics/{path.name}")
+    return found
 
 
 def _section(kind: Any, found: Mapping[str, Any]) -> str:
     entry = ENTRIES[kind]
-    role = inspect.cleandoc(kind.__mro__[1].__doc__ or "").partition("\n")[0]
-    scenes = ", ".join(f"`{path}`" for path in found["scenes"])
-    counts = ", ".join(f"{n} {k}" for k, n in found["with"]["counts"].items() if n)
-    lines = [
-        f"### {kind.__name__}",
-        f"{kind.summary[0].upper()}{kind.summary[1:]}. Role: {role[0].lower()}{role[1:]}",
-        f"$$ {entry.formula} $$",
-        f"- Source: {'; '.join(found['sources'])}.",
-        f"- Validity: {'; '.join(found['validity']) or 'no number of its own'}.",
-        f"- Measured: {entry.what}: {_seconds(found['with']['seconds'])} s, "
-        f"{_memory(found['with']['memory'])}, {counts}; in its place: {entry.instead}.",
-        f"- Scenes that list it: {scenes or 'none of those shipped'}.",
-    ]
-    return "\n\n".join([*lines[:3], "\n".join(lines[3:])])
+    ranges = ", ".join(one.partition(" (")[0] for one in found["validity"])
+    what = entry.what
+    for name, scene in _SCENES.items():
+        what = what.replace(scene, name)
+    without = "" if entry.instead == "nothing" else f"; without it {entry.instead}"
+    return (
+        f"- [`{kind.__name__}`]({_explained()[kind.name]}), {kind.summary}: ${entry.formula}$. "
+        f"Source: {'; '.join(found['sources'])}. {f'Validity: {ranges}. ' if ranges else ''}"
+        f"Measured on {what}{without}."
+    )
 
 
 def draw(data: Mapping[str, Any]) -> None:

@@ -7,8 +7,9 @@ from typing import Any
 
 from contactkit.benchmarks.hard.case import HardCase
 from contactkit.benchmarks.table import HARD_CASES
+from contactkit.plot.axis_units import in_prose
 
-from .page import conditions, machine, number, picture, slug, table
+from .page import conditions, machine, number, picture
 
 __all__ = ["NAME", "draw", "measure", "page"]
 
@@ -26,52 +27,35 @@ def page(data: Mapping[str, Any]) -> str:
     """The page as Markdown."""
     parts = [
         "# Hard cases",
-        "Cases in which a plain method loses all digits, never ends, or has no answer. For each: "
-        "what makes it hard, what a naive method gives, what contactkit gives, and the errors of "
-        "both against a third solution. Each naive method was run; its code, as one would write it "
-        "from a textbook, is in `contactkit/benchmarks/hard/`; `contactkit cost NAME` runs a case.",
+        "Cases in which a plain method loses all digits, never ends, or has no answer: what makes "
+        "each hard, what a naive method gives, written as one would from a textbook and run, and "
+        "what contactkit gives. Errors are relative to the answer, against a third solution; "
+        "1e-16 is round-off. `contactkit cost NAME` runs a case.",
         "![Errors of the naive method and of contactkit for each case](hard-cases.png)",
-        "Errors are relative to the answer unless the table says otherwise; 1e-16 is round-off.",
     ]
     for half, title in _ROOMS.items():
         some = [(case, data["cases"][key]) for key, case in HARD_CASES.items() if case.half == half]
-        rows = [(f"[{c.title}](#{slug(c.title)})", _naive(one), _ours(one)) for c, one in some]
-        parts += [f"## {title}", table(("case", "error, naive", "error, contactkit"), rows)]
-        parts += [_section(case, one) for case, one in some]
-    parts += [
-        "## How it was made",
-        "`make pages PAGES=demands` runs all cases; `python docs/scripts/demands hard-cases "
-        "--draw` makes the page from the data, `docs/demands/hard-cases.json`, without running "
-        "them. `tests/demand_pages` runs them again and holds both errors to bounds that are "
-        "good on any machine.",
-        conditions(data["measured"]),
-    ]
-    return "\n\n".join(parts) + "\n"
+        parts += [f"## {title}", *(_case(case, one) for case, one in some)]
+    parts += ["## Measured", conditions(data["measured"]) + " [Data](hard-cases.json)."]
+    return in_prose("\n\n".join(parts) + "\n")
 
 
 def _naive(found: Mapping[str, Any]) -> str:
-    return "no answer" if found["naive"] is None else number(found["naive"])
+    return "no answer" if found["naive"] is None else f"error {number(found['naive'])}"
 
 
 def _ours(found: Mapping[str, Any]) -> str:
-    return "round-off" if found["ours"] < 2e-16 else number(found["ours"])
+    return "round-off" if found["ours"] < 2e-16 else f"error {number(found['ours'])}"
 
 
-def _section(case: HardCase, found: Mapping[str, Any]) -> str:
+def _case(case: HardCase, found: Mapping[str, Any]) -> str:
+    """A case: why it is hard, and a line for each method."""
     lines = [
-        f"### {case.title}",
-        case.why,
-        table(
-            ("", "method", "gives", "error"),
-            (
-                ("naive", case.naive, found["naive_gives"], _naive(found)),
-                ("contactkit", case.ours, found["ours_gives"], _ours(found)),
-            ),
-        ),
-        f"Error against {case.judge}. Kept by `{case.tested}`; `contactkit cost {case.name}` "
-        "computes both.",
+        f"**{case.title}** (`{case.name}`). {case.why}\n",
+        f"- naive: {case.naive}; {found['naive_gives']}: {_naive(found)}",
+        f"- contactkit: {case.ours}; {found['ours_gives']}: {_ours(found)} against {case.judge}",
     ]
-    return "\n\n".join(lines)
+    return "\n".join(lines)
 
 
 def draw(data: Mapping[str, Any]) -> None:

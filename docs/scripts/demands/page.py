@@ -18,11 +18,11 @@ from contactkit.files.scenes import write_whole
 __all__ = [
     "SHOWN",
     "conditions",
+    "folded",
     "load",
     "machine",
     "number",
     "picture",
-    "slug",
     "store",
     "table",
     "write",
@@ -64,9 +64,9 @@ def conditions(measured: Mapping[str, str]) -> str:
     load = f", load average {measured['load']}" if "load" in measured else ""
     return (
         f"Measured {measured['date']} on {measured['processor']}{load}, one thread; "
-        f"{measured['versions']}. Errors and counts hold on any machine and are recomputed by "
-        "`tests/demand_pages`; seconds are CPU time of the process (`time.process_time`), the "
-        "least of several runs, and differ between machines."
+        f"{measured['versions']}. Errors and counts hold on any machine, and tests compute them "
+        "again; seconds are CPU time of the process, the least of several runs, and differ "
+        "between machines."
     )
 
 
@@ -84,9 +84,9 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join(lines)
 
 
-def slug(title: str) -> str:
-    """Anchor of a heading, as Markdown makes it."""
-    return re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", title).strip().lower())
+def folded(title: str, text: str) -> str:
+    """Text that a reader unfolds."""
+    return f'<details markdown="1">\n<summary>{title}</summary>\n\n{text}\n\n</details>'
 
 
 def load(name: str) -> dict[str, Any]:

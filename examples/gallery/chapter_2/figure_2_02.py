@@ -17,12 +17,11 @@ PAGE = Page(
     title="Stress below a sphere on one layer, with friction",
     claim="A stiffer layer leads to higher maximum stress, a more compliant one to lower, whatever "
     "the friction. Friction raises the maximum and moves it towards the surface.",
-    verdict="Holds, with one restriction: with little friction the maximum lies below the surface "
-    "and moves along x rather than up; at 0.5 it is at the surface, at the trailing edge of the "
-    "contact. What is drawn is the square root of J2, as in the source, whose Appendix A calls J2 "
-    "the stress of von Mises.",
-    choices="Thickness of the layer a0, the contact radius of Hertz on the substrate; Poisson's "
-    "ratio 0.3; ratios 0.5, 1, 2 and coefficients 0, 0.25, 0.5. The sphere slides to the right.",
+    verdict="Holds, but with little friction the maximum lies below the surface and moves along x "
+    "rather than up; at 0.5 it is at the surface, at the trailing edge. Drawn is the "
+    "square root of J2, which the source's Appendix A calls the stress of von Mises.",
+    choices="Thickness a0, the contact radius of Hertz on the substrate; Poisson's ratio 0.3; "
+    "ratios 0.5, 1, 2, coefficients 0, 0.25, 0.5. The sphere slides to the right.",
     grid="97 x 97 pixels on 3.2 a0, not periodic; 21 planes down to 1.6 a0",
 )
 RATIOS, FRICTIONS, WIDTH = (0.5, 1.0, 2.0), (0.0, 0.25, 0.5), 3.2

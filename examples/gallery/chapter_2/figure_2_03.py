@@ -17,17 +17,15 @@ from contactkit.reference import hertz
 PAGE = Page(
     name="2.3",
     title="A rough sphere on a layer",
-    claim="Roughness changes pressure and displacement a great deal: the maximum pressure is 6.37 "
-    "times that of the smooth sphere. The greatest stress lies close to the surface; deeper down "
-    "the influence of roughness fades. The layer changes the stress little, as its shear modulus "
-    "is not much larger than that of the substrate.",
+    claim="Roughness raises the maximum pressure to 6.37 times that of the smooth sphere. The "
+    "greatest stress lies close to the surface; deeper down the influence of roughness "
+    "fades. The layer changes the stress little.",
     verdict="Holds. With the printed R = 0.0137 mm the Hertz pressure would be 92 GPa; 13.7 mm is "
-    "meant. The printed E1 and E2 are no moduli beside G1 and G2 but strengths, see the errata. "
-    "The ratio 6.37 is a property of the lost profile: roughness of the kind chosen here has it at "
-    "an rms height of about a tenth of a micrometre.",
-    choices="The measured profile is lost: isotropic roughness with beta* of 40 um and a shortest "
-    "wave of eight pixels, whose rms height is varied; sections are those at the height nearest to "
-    "the printed ratio. Poisson's ratio 0.3; homogeneous: the shear modulus of the substrate.",
+    "meant, and the printed E1 and E2 are strengths. The ratio 6.37 is that of the lost "
+    "profile: the roughness chosen here has it at an rms height of about 0.1 um.",
+    choices="Isotropic roughness, beta* of 40 um, shortest wave of eight pixels, in place of the "
+    "lost profile; sections at the height nearest to the printed ratio. Poisson's ratio "
+    "0.3.",
     grid="160 x 160 pixels on 260 um, not periodic",
     seeds="1 to 5; maps and sections of seed 1",
 )

@@ -18,12 +18,11 @@ PAGE = Page(
     title="Three rough surfaces",
     claim="Gaussian surfaces with an exponential autocorrelation, on 20 x 20 um2: rms height 1 nm "
     "with beta* of 0.5 um, 10 nm with 0.5 um, and 1 nm with 0.05 um.",
-    verdict="Heights and lengths are as stated. beta* is the length at which the autocorrelation "
-    "has fallen to a tenth, not the decay length. The rms slope is not a property of the surface: "
-    "it grows as the shortest wave falls. A beta* of 0.05 um takes pixels much smaller than that: "
-    "on 256 of them the surface is white noise.",
-    choices="Shortest wave: twice the pixel in the pictures, as the source samples the "
-    "autocorrelation down to the pixel; 8 pixels in all that follows.",
+    verdict="Heights and lengths are as stated. beta* is the length to a tenth, not the decay "
+    "length. The rms slope is no property of the surface: it grows as the shortest wave "
+    "falls. With a beta* of 0.05 um the surface is white noise on 256 pixels.",
+    choices="Shortest wave: two pixels in the pictures, as in the source; eight in all that "
+    "follows.",
     grid="1024 x 1024 pixels on 20 um",
     seeds="1 to 5; pictures are a corner of 5 um of seed 1",
 )

@@ -18,15 +18,13 @@ PAGE = Page(
     title="Pressure and stress of three surfaces",
     claim="A rougher surface, of larger rms height or shorter beta*, has less contact, higher "
     "pressure and higher stress; tenfold rms height does more than a tenth of beta*.",
-    verdict="Holds for each of five surfaces. The third surface is not the one named: its beta* of "
-    "0.05 um is shorter than the shortest wave, as it is shorter than the pixels of any grid the "
-    "source can have used on this window.",
-    choices="Pressure bounded by the hardness, 5 GPa. The surface of 10 nm yields at the low load "
-    "already."
-    " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
-    "between structures by 10 to 20 % (page Refinement).",
+    verdict="Holds for each of five surfaces. The third is not the one named: its beta* of 0.05 "
+    "um is shorter than the pixels of any grid the source can have used on this window.",
+    choices="Pressure bounded by the hardness, 5 GPa; the surface of 10 nm yields at the low load "
+    "already. Tension is uncertain by 30 %, its ratios between structures by 10 to 20 % "
+    "([refinement](grid-refinement.md)).",
     grid=rough.WIDE,
-    seeds="1 to 5; maps of seed 1, a square of 0.8 um around the highest pressure",
+    seeds="1 to 5; maps of seed 1 around the highest pressure",
 )
 CROP = 0.8e-6
 

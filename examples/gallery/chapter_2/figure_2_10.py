@@ -18,17 +18,14 @@ PAGE = Page(
     name="2.10-2.11",
     title="Pressure, area and displacement over the load, layers of 10 rms heights",
     claim="Compliant layers (II) lower the maximum pressure and enlarge area and displacement, "
-    "stiff ones (III) the reverse; a compliant (IV) or stiff (V) interlayer does the same to"
-    " a lesser degree, and the area of IV is roughly that of the homogeneous body. Plastic "
-    "contact comes first with stiff layers. Beyond it the displacement no longer changes.",
+    "stiff ones (III) the reverse; interlayers (IV, V) do the same to a lesser degree, "
+    "and the area of IV is roughly that of I. Plastic contact comes first with stiff "
+    "layers; beyond it the displacement stays.",
     verdict="The orderings hold on every surface. Two statements do not: the area of IV is larger "
-    "by a tenth and more, as pressure and area go together; and displacement goes on growing "
-    "beyond the first yield, as the load that the plastic spots cannot carry goes to others.",
-    choices="Loads up to 1e-2 E3, so that all surfaces flow: with a shortest wave of 156 nm the "
-    "surface of 1 nm and 0.5 um is elastic at all printed loads (see the page on refinement)."
-    " Ratios of the area at one load are medians of five windows of 10 um with few spots; "
-    "Table 2.2 has other ones, each surface against I on it first: a pixel more or less moves "
-    "them, and only the area added over the loads is stated.",
+    "by a tenth and more, and displacement goes on growing beyond the first yield, as "
+    "other spots carry the load.",
+    choices="Loads up to 1e-2 E3, so that all surfaces flow. The area at one load is that of a "
+    "few spots and moves by a pixel; only the area added over the loads is stated.",
     grid=rough.WIDE,
     seeds=rough.SEEDS,
 )

@@ -15,16 +15,15 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="2.12",
     title="Pressure and stress of layered structures, layers of 10 rms heights",
-    claim="A stiff layer or interlayer raises the maximum stresses, a compliant one lowers them, "
-    "at both loads; the lower load is elastic, the higher one elastic-plastic.",
+    claim="A stiff layer or interlayer raises the maximum stresses, a compliant one lowers "
+    "them; the lower load is elastic, the higher one elastic-plastic.",
     verdict="Holds for the stress of von Mises. Not for tension: a compliant interlayer (IV) "
-    "raises it, as the layer above it bends and is pulled at its lower face. Neither load "
-    "makes this surface flow at our shortest wave.",
-    choices="Higher load 4e-5 E3, as in the caption; the text has 1e-5 in places."
-    " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
-    "between structures by 10 to 20 % (page Refinement).",
+    "raises it, as the layer above it bends. Neither load makes this surface flow at our "
+    "shortest wave.",
+    choices="Higher load 4e-5 E3, as in the caption. Tension is uncertain by 30 %, its ratios "
+    "between structures by 10 to 20 % ([refinement](grid-refinement.md)).",
     grid=rough.WIDE,
-    seeds="1 to 5; maps of seed 1, a square of 0.6 um around the highest pressure",
+    seeds="1 to 5; maps of seed 1 around the highest pressure",
 )
 LOADS, CROP, HEIGHT = (4e-6, 4e-5), 0.6e-6, 10.0
 STRUCTURES = list(rough.STRUCTURES)

@@ -16,18 +16,16 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="2.13",
     title="Layered structures, layers of one rms height",
-    claim="II lowers pressure and stress, III raises them; IV lowers them, to an extent comparable "
-    "with II, while V makes no significant difference. Differences are smaller than with "
-    "layers ten times as thick.",
-    verdict="Differences in pressure are indeed small: 2 nm of layers below spots ten times as "
-    "wide. IV lowers the pressure by half of what II does, and V raises it by as much: "
-    "nothing makes one of them significant and the other not. The tension is the "
-    "exception: even a thin stiff layer carries far more of it.",
-    choices="Load curves up to 1e-2 E3."
-    " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
-    "between structures by 10 to 20 % (page Refinement).",
+    claim="II lowers pressure and stress, III raises them; IV lowers them comparably to II, V "
+    "makes no significant difference. Differences are smaller than with layers ten times "
+    "as thick.",
+    verdict="Differences in pressure are small: 2 nm of layers below spots ten times as wide. IV "
+    "lowers the pressure by half of what II does, and V raises it by as much. Tension is "
+    "the exception: even a thin stiff layer carries far more of it.",
+    choices="Load curves up to 1e-2 E3. Tension is uncertain by 30 %, its ratios between "
+    "structures by 10 to 20 % ([refinement](grid-refinement.md)).",
     grid=rough.WIDE,
-    seeds="1 to 5; maps of seed 1, a square of 0.6 um around the highest pressure, at 1e-5 E3",
+    seeds="1 to 5; maps of seed 1 around the highest pressure, at 1e-5 E3",
 )
 LOADS, MAP_LOAD, CROP = (4e-6, 1e-5, 4e-5, 1e-4, 4e-4, 1e-3, 4e-3, 1e-2), 1e-5, 0.6e-6
 COLUMNS = ("max_pressure", "contact_fraction", "plastic_fraction")

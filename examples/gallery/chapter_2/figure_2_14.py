@@ -18,13 +18,12 @@ PAGE = Page(
     title="Homogeneous bodies of three hardnesses",
     claim="The harder the body, the higher the load at which it yields first; a soft one yields "
     "early and its plastic area grows faster.",
-    verdict="Holds. First yield comes at the load at which the elastic contact has a maximum "
-    "pressure of the hardness, so that its order is no finding; how far the loads lie apart is: a "
-    "hardness twice as large takes a load many times as large.",
-    choices="A shorter wave than in the pages on stiffness, so that the bodies flow; maps at "
-    "1e-3 E3, as at the printed 1e-5 the plastic area is a few pixels at most.",
+    verdict="Holds. First yield comes where the elastic contact reaches the hardness; a hardness "
+    "twice as large takes a load many times as large.",
+    choices="A shorter wave than in the pages on stiffness, so that the bodies flow; maps at 1e-3 "
+    "E3.",
     grid=rough.FINE,
-    seeds="1 to 5; maps of seed 1, a square of 0.5 um around the highest pressure",
+    seeds="1 to 5; maps of seed 1 around the highest pressure",
 )
 HARDNESSES = (0.5, 1.0, 2.0)  # over 0.05 E3
 LOADS, MAP_LOAD, CROP = (4e-6, 1e-5, 4e-5, 1e-4, 4e-4, 1e-3, 2e-3, 4e-3), 1e-3, 0.5e-6

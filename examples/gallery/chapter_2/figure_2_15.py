@@ -23,19 +23,16 @@ PAGE = Page(
     name="2.15",
     title="Hardness of layers: the rule of the source and a continuous one",
     claim="In the elastic-plastic regime soft layers (II') give less displacement, pressure and "
-    "stress and more contact, hard ones (III') the reverse; so do soft (IV') and hard (V') "
-    "interlayers. The maximum pressure can be above, at or below the hardness of the top layer. "
-    "Hard layers do not yield.",
+    "stress and more contact, hard ones (III') the reverse; so do interlayers (IV', V'). "
+    "The maximum pressure can be above the hardness of the top layer. Hard layers do not "
+    "yield.",
     verdict="The order of soft and hard layers holds under both rules. What interlayers do is the "
-    "rule: as its criteria compare the displacement with 0.3 h2, not 0.3 (h1 + h2), the "
-    "literal one forgets the top layer at once: IV' falls from 1 to 0.528 and V' rises "
-    "from 1 to 1.752 of H3, and beyond 0.3 nm, at every load here, II' and IV' are the "
-    "same body, and III' and V'. The pressure above the hardness of the top layer (V') "
-    "comes from there; the continuous rule has it too, to a lesser degree at first. "
-    "Displacement hardly depends on hardness.",
-    choices="Displacement from the mean of the surface, as a periodic window has no other; the "
-    "largest one sets one hardness for all pixels, as in the source. Loads from 1e-5 to 4e-3 E3; "
-    "maps at 1e-3 E3.",
+    "rule: its criteria compare the displacement with 0.3 h2, not 0.3 (h1 + h2), so that "
+    "beyond 0.3 nm the literal one forgets the top layer: IV' falls to 0.528, V' rises to "
+    "1.752 of H3. The continuous rule has that to a lesser degree at first. Displacement "
+    "hardly depends on hardness.",
+    choices="The largest displacement, from the mean of the surface, sets one hardness for all "
+    "pixels. Loads from 1e-5 to 4e-3 E3; maps at 1e-3 E3.",
     grid=rough.FINE,
     seeds="1 to 5: median and range; points without a solution are left out; maps of seed 1",
 )

@@ -16,21 +16,18 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="2.16-2.18",
     title="Maximum stress over friction, structures I to V",
-    claim="Friction raises the maximum stresses, little at first for von Mises and shear stress, "
-    "and moves their places to the surface at 0.5. Stiff layers have the higher stress, compliant "
-    "layers and interlayers the lower. With layers of one rms height the effect of the layers "
-    "fades with friction, with ten it does not.",
-    verdict="The growth with friction and the move to the surface hold. The effect of thin layers "
-    "does not fade: their tension stays 1.6 to 1.8 times that of the homogeneous body, and their "
-    "stress of von Mises, equal without friction, parts from it as the maximum moves up into the "
-    "layer. A compliant interlayer raises the tension without friction; "
-    "with 0.5 finer grids do not agree on the sign.",
-    choices="Coefficients 0, 0.1, 0.3 and 0.5; friction is superposed on the frictionless pressure "
-    "(Goodman), so that one solve serves all."
-    " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
-    "between structures by 10 to 20 % (page Refinement).",
+    claim="Friction raises the maximum stresses, little at first for von Mises and shear "
+    "stress, and moves them to the surface at 0.5. Stiff layers have the higher stress, "
+    "compliant layers and interlayers the lower. With layers of one rms height their "
+    "effect fades with friction.",
+    verdict="The growth and the move to the surface hold. The effect of thin layers does not "
+    "fade: their tension stays 1.6 to 1.8 times that of I. A compliant interlayer raises "
+    "the tension without friction; with 0.5 finer grids do not agree on the sign.",
+    choices="Coefficients 0, 0.1, 0.3, 0.5, superposed on the frictionless pressure (Goodman). "
+    "Tension is uncertain by 30 %, its ratios between structures by 10 to 20 % "
+    "([refinement](grid-refinement.md)).",
     grid=rough.WIDE,
-    seeds="1 to 5; maps of seed 1 with 0.5, layers of one rms height, a square of 0.6 um",
+    seeds="1 to 5; maps of seed 1 with 0.5, layers of one rms height",
 )
 FRICTIONS, LOAD, HEIGHTS, CROP = (0.0, 0.1, 0.3, 0.5), 4e-6, (1.0, 10.0), 0.6e-6
 STRUCTURES = list(rough.STRUCTURES)

@@ -17,16 +17,14 @@ PAGE = Page(
     name="2.19-2.21",
     title="Maximum stress over friction, hardness of layers",
     claim="As with stiffness: friction raises the stresses and moves them to the surface; hard "
-    "layers have the higher stress, soft layers and interlayers the lower. Beyond yield von "
-    "Mises and shear stress grow from low friction on.",
-    verdict="The order of soft and hard layers holds where the contact yields. At the printed load "
-    "of 1e-5 E3 it hardly does, and all structures but the soft layers are one. The growth with "
-    "friction is that of the elastic case: hardness bounds the pressure, and stress and pressure "
-    "are proportional. What interlayers do follows from the hardness rule (Fig. 2.15).",
+    "layers have the higher stress, soft layers and interlayers the lower. Beyond yield "
+    "von Mises and shear stress grow from low friction on.",
+    verdict="The order of soft and hard layers holds where the contact yields; at the printed "
+    "load it hardly does. The growth with friction is that of the elastic case. What "
+    "interlayers do follows from the hardness rule (Fig. 2.15).",
     choices="Continuous rule. Loads 1e-5 E3 as printed, and 1e-3 E3, at which all but hard layers "
-    "yield. Coefficients 0, 0.1, 0.3, 0.5."
-    " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
-    "between structures by 10 to 20 % (page Refinement).",
+    "yield. Tension is uncertain by 30 %, its ratios between structures by 10 to 20 % "
+    "([refinement](grid-refinement.md)).",
     grid=rough.FINE,
     seeds="1 to 5; maps of seed 1 with 0.5 at 1e-3 E3, layers of one rms height, 0.5 um",
 )

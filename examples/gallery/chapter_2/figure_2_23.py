@@ -15,16 +15,15 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="2.23",
     title="Meniscus force over the load, structures I to V",
-    claim="The relative meniscus force falls with the load, while the force itself grows. It is "
-    "lower for stiff layers and higher for compliant ones; a compliant interlayer lowers it by "
-    "more than compliant layers do. Layers of one rms height change it little.",
+    claim="The relative meniscus force falls with the load. It is lower for stiff layers, "
+    "higher for compliant ones; a compliant interlayer lowers it by more than compliant "
+    "layers do. Layers of one rms height change it little.",
     verdict="The trends with load, stiffness and thickness hold up to 1e-4 E3; beyond, contact "
-    "takes the room of the film, and the order reverses. A compliant interlayer raises the"
-    " force, as it brings the surfaces closer. At the printed loads the film pulls harder "
-    "than the load: such a force cannot be left out of it. If it adds to the load, it is "
-    "many times larger still, as it draws the surfaces together.",
-    choices="Water, contact angles of 60 degrees, thickness of the film and height of the menisci "
-    "1 nm. As published: the force is reported only. Self-consistent: it adds to the load.",
+    "takes the room of the film, and the order reverses. A compliant interlayer raises "
+    "the force. At the printed loads the film pulls harder than the load; added to it, it "
+    "is many times larger still.",
+    choices="Water, 60 degrees, film and menisci of 1 nm. As published: reported only. "
+    "Self-consistent: added to the load.",
     grid="256 x 256 pixels on 5 um; shortest wave 156 nm = 8 pixels",
     seeds=rough.SEEDS,
 )

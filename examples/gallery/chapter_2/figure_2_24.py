@@ -16,13 +16,10 @@ PAGE = Page(
     name="2.24",
     title="Meniscus force over the load, hardness",
     claim="Hardness changes the meniscus force in the elastic-plastic regime only. A soft "
-    "interlayer (IV') lowers it significantly against soft layers (II'), a hard one (V') raises "
-    "it a little against hard layers (III').",
-    verdict="The first sentence holds, and the changes are small: the plastic area is a small part"
-    " of the contact, and the film fills gaps far from it. A softer body has a bit more "
-    "force while contact is small, and less beyond, where contact leaves the film less "
-    "room. A soft interlayer changes it less than soft layers do; hard ones, whether "
-    "layers or interlayer, change nothing.",
+    "interlayer (IV') lowers it significantly, a hard one (V') raises it a little.",
+    verdict="The first sentence holds, and the changes are small: the plastic area is a small "
+    "part of the contact. A soft interlayer changes the force less than soft layers do; "
+    "hard ones change nothing.",
     choices="Continuous hardness rule, layers of one rms height; film as in Fig. 2.23, reported "
     "only.",
     grid=rough.FINE,

@@ -18,10 +18,9 @@ PAGE = Page(
     claim="A rougher surface, of larger rms height or shorter beta*, has a lower relative meniscus "
     "force; it is more sensitive to the rms height.",
     verdict="Holds. Most of the effect of the rms height is in the height of the menisci, which "
-    "the caption ties to it: Laplace pressure is a tenth with menisci ten times as high. "
-    "The text has beta* of 0.05 um for the surface of 10 nm, the caption 0.5 um, which is "
-    "taken.",
-    choices="Layers of 1 nm; film and menisci as high as the rms height, as the caption states.",
+    "the caption ties to it. The text has beta* of 0.05 um for the surface of 10 nm, the "
+    "caption 0.5 um, which is taken.",
+    choices="Layers of 1 nm; film and menisci as high as the rms height.",
     grid="256 x 256 pixels on 5 um; shortest wave 156 nm = 8 pixels",
     seeds=rough.SEEDS,
 )

@@ -18,13 +18,11 @@ PAGE = Page(
     claim="The source states rms height, beta* and window, and neither grid nor shortest wave; "
     "4e-6 E3 is called elastic and 1e-5 E3 elastic-plastic.",
     verdict="With the shortest wave fixed, eight pixels for it give the maximum pressure to some "
-    "per cent. With the shortest wave tied to the pixel, as in the source, pressure grows and "
-    "area falls with every finer grid and nothing converges: whether a load is elastic is a "
-    "property of the grid. Where these pages state a regime, they state the shortest wave. The "
-    "greatest tension converges last: it lies at the edge of a spot, where eight pixels for the "
-    "shortest wave leave it too low by a fifth to a third, with friction too. Every tension of "
-    "these pages is uncertain by 30 %, what layers do to it by 10 to 20 %; pressure, area and von "
-    "Mises by 1 to 8 %.",
+    "per cent. With the shortest wave tied to the pixel, as in the source, nothing "
+    "converges: whether a load is elastic is a property of the grid. Tension converges "
+    "last, at the edge of a spot: eight pixels leave it too low by a fifth to a third. Of "
+    "these pages tension is uncertain by 30 %, what layers do to it by 10 to 20 %; "
+    "pressure, area and von Mises by 1 to 8 %.",
     grid="(a) shortest wave 0.625 um on 10 um, 2 to 32 pixels for it; (b) 128 to 1024 pixels on "
     "10 um, shortest wave 8 pixels; stress: shortest wave 156 nm on 2.5 um, 8 to 32 pixels for it",
     seeds="1 to 5: median, and a band from the least to the greatest",

@@ -25,17 +25,15 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="layered-equations",
     title="Displacement and stress of two layers, as printed and right",
-    claim="Potentials of Papkovich and Neuber, with coefficients from a system of five and one of "
-    "four equations for each wavenumber, are the displacements and stresses of two layers on a "
-    "substrate, and include those of the homogeneous body.",
+    claim="Potentials of Papkovich and Neuber, with coefficients from two systems for each "
+    "wavenumber, are the displacements and stresses of two layers on a substrate.",
     verdict="With every erratum put right the equations have the displacement of this package to "
-    "round-off, and stresses that follow from it by Hooke's law. As printed they have not: most "
-    "errata change the displacement of the surface by tens of per cent, all of them together by an "
-    "order of magnitude.",
-    choices="Errata one at a time, the others right. Structure IV (moduli 1, 0.5, 1; nu = 0.3) and "
-    "one of unlike nu (2, 0.5, 1; 0.2, 0.4, 0.3), layers of 0.7 and 1.1, friction of 0.3; waves "
-    "obliquely to it. B,1 is zero, as it enters only beside A. A factor h1 too many or missing "
-    "depends on the unit of length.",
+    "round-off, and stresses that follow from it by Hooke's law. As printed most errata "
+    "change the displacement of the surface by tens of per cent, all together by an order "
+    "of magnitude.",
+    choices="Errata one at a time, the others right. Structure IV (moduli 1, 0.5, 1; nu = 0.3) "
+    "and one of unlike nu (2, 0.5, 1; 0.2, 0.4, 0.3), layers of 0.7 and 1.1, friction of "
+    "0.3; oblique waves. B,1 is zero.",
     grid="13 wavenumbers, alpha (h1 + h2) from 0.3 to 3",
 )
 CASES = {

@@ -15,8 +15,8 @@ PAGE = Page(
     claim="Modulus, Poisson's ratio and hardness of overcoat, magnetic layer, disk blank and "
     "slider.",
     verdict="They are the materials of the library. Poisson's ratio of Ni-P is printed with a "
-    "footnote mark run into it (0.363 for 0.36), those of the magnetic layer and of the substrate "
-    "and the hardness of the substrate are missing and chosen.",
+    "footnote mark run into it (0.363 for 0.36); what is missing for the magnetic layer "
+    "and the substrate is chosen.",
     grid="seven materials",
 )
 NAMES = ("dlc", "dlc-hard", "co-cr", "ni-p", "al-mg", "glass-ceramic", "al2o3-tic")

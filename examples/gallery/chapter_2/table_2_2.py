@@ -19,18 +19,15 @@ PAGE = Page(
     "homogeneous body; a compliant interlayer is ideal for lower wear.",
     verdict="Directions agree for stiffness but for the size of some: the pressure of IV falls by "
     "a little more than a tenth, one arrow and not two, and the tension rises where the "
-    "source has the stress fall. For hardness the source's arrows of area and film force "
-    "are far too large: where a small part of the contact is plastic they do not change at"
-    " all; and what interlayers do there is the source's rule of hardness (Fig. 2.15).",
-    choices="Thresholds on the median change against I: below 3 % none, up to 20 % one arrow, "
-    "beyond two. Stiffness: layers of 10 rms heights at 4e-6 E3, shortest wave 156 nm. Hardness: "
-    "layers of one rms height at 1e-3 E3, shortest wave 39 nm, continuous rule. Friction goes "
-    "with the area (one shear strength), wear with the stress of von Mises, and for hardness with "
-    "the plastic area, by which the source argues too; the area of all five surfaces together. A "
-    "suggestion is borne out if friction or wear, whichever it names, has the sign it needs."
-    " Tension is that of eight pixels for the shortest wave: uncertain by 30 %, its ratios "
-    "between structures by 10 to 20 % (page Refinement)."
-    " The area at the lowest load is that of a few spots: Fig. 2.10 adds it over the loads.",
+    "source has the stress fall. For hardness the arrows of area and film force are far "
+    "too large, and those of interlayers are the source's rule (Fig. 2.15).",
+    choices="Median change against I: below 3 % none, up to 20 % one arrow, beyond two. "
+    "Stiffness: layers of 10 rms heights at 4e-6 E3, shortest wave 156 nm. Hardness: "
+    "layers of one rms height at 1e-3 E3, 39 nm, continuous rule. Friction goes with the "
+    "area, wear with the stress of von Mises, for hardness with the plastic area. A "
+    "suggestion is borne out if friction or wear, whichever it names, has the sign it "
+    "needs. Tension is uncertain by 30 %, its ratios between structures by 10 to 20 % "
+    "([refinement](grid-refinement.md)).",
     grid=f"stiffness: {rough.WIDE}; hardness: {rough.FINE}",
     seeds="1 to 5, each against structure I on the same surface",
 )

@@ -19,15 +19,14 @@ PAGE = Page(
     name="1.2",
     title="Adhesion of a pin over the humidity",
     claim="The adhesion of a ferrite pin of 2 mm to a ferrite flat in moist nitrogen (measured "
-    "by others, cited) rises with humidity; at saturation it is that of the meniscus equation.",
-    verdict="The meniscus equation of a smooth sphere, 4 pi R gamma = 1.8 mN, does not contain "
-    "the humidity: exact, a smooth pin has 99.9 % of it from 5 to 95 %. What rises with the "
-    "humidity is the part of it that a rough pin reaches: menisci fill the clearance that its "
-    "asperities keep only once they are higher than that, above 80 % for 5 nm and 95 % for 20 "
-    "nm. All clearances tend to the same force at saturation. The measured points are lost; the "
-    "load of 0.67 to 0.87 mN is less than that force.",
+    "by others) rises with humidity; at saturation it is that of the meniscus equation.",
+    verdict="The force of a smooth sphere, 4 pi R gamma = 1.8 mN, does not depend on humidity. "
+    "What rises is the part of it that a rough pin reaches: menisci fill the clearance "
+    "that its asperities keep only once they are higher, above 80 % for 5 nm and 95 % for "
+    "20 nm. All clearances tend to the same force at saturation. The measured points are "
+    "lost.",
     grid="150 humidities from 5 to 99.95 %",
-    choices="Water at 20 degC that wets fully; clearances of 2 to 20 nm; no points are drawn.",
+    choices="Water at 20 degC that wets fully; clearances of 2 to 20 nm.",
 )
 
 RADIUS = 2 * mm

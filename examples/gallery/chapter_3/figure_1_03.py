@@ -20,16 +20,15 @@ from contactkit.units import mm, um
 PAGE = Page(
     name="1.3",
     title="A lens pulled out of castor oil",
-    claim="The force needed to pull a glass lens out of a pool of castor oil (measured by "
-    "others at 18 and 22 degC, cited) falls with the time taken; the product of slope and "
-    "viscosity does not depend on the temperature, so that the film is Newtonian.",
-    verdict="It is the impulse of a Newtonian film after Reynolds: under a constant pull the "
-    "time is t = 6 pi eta R^2 ln(D1/D0)/F for a lens in a pool, so that the inverse of the "
-    "force over the time is a line through zero, whose slope times the viscosity is the same "
-    "for every oil. The simulated pulls keep that to six digits.",
+    claim="The force needed to pull a glass lens out of castor oil (measured by others at 18 "
+    "and 22 degC) falls with the time taken; slope times viscosity does not depend on the "
+    "temperature: the film is Newtonian.",
+    verdict="It is the impulse of a Newtonian film: under a constant pull t = 6 pi eta R^2 "
+    "ln(D1/D0)/F, a line through zero whose slope times the viscosity is the same for "
+    "every oil. The simulated pulls keep that to six digits.",
     grid="7 pulls at each of two temperatures, each simulated",
-    choices="Lens of 10 mm radius, from 1 to 100 um (source: not stated). Viscosity "
-    "interpolated between 2.42, 0.986 and 0.451 Pa.s at 10, 20 and 30 degC (CRC Handbook).",
+    choices="Lens of 10 mm radius, from 1 to 100 um (source: not stated). Viscosity between 2.42, "
+    "0.986 and 0.451 Pa.s at 10, 20 and 30 degC (CRC Handbook).",
 )
 
 RADIUS, GAPS = 10 * mm, (1 * um, 100 * um)

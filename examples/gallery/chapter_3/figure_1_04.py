@@ -20,15 +20,14 @@ from contactkit.units import celsius, deg, nm
 PAGE = Page(
     name="1.4",
     title="Meniscus against van der Waals force",
-    claim="The meniscus force, for several humidities and radii (calculated by others, cited), "
-    "is the larger one once the distance exceeds about 0.5 nm.",
-    verdict="It is so from 0.2 nm up to the distance at which the meniscus breaks, near its "
-    "height in Kelvin's equation on a large sphere: 1.3 nm at 50 % and 8 nm at 90 % humidity, 3 "
-    "nm there on a sphere of 10 nm. In dry air, at 10 %, the meniscus breaks below 0.4 nm, and "
-    "the statement is wrong. Below 0.2 nm the van der Waals force is the larger one.",
+    claim="The meniscus force, for several humidities and radii, exceeds the van der Waals "
+    "force beyond a distance of about 0.5 nm.",
+    verdict="It does from 0.2 nm up to where the meniscus breaks: 1.3 nm at 50 % and 8 nm at 90 % "
+    "humidity on a large sphere, 3 nm there on one of 10 nm. At 10 % it breaks below 0.4 "
+    "nm, and the statement is wrong.",
     grid="400 distances from 0.1 to 30 nm",
-    choices="Water at 20 degC, contact angles of 20 degrees, Hamaker's constant 1e-19 J, across "
-    "vapour; cut-off 0.165 nm marked. Kelvin's equation below 1 nm treats a few molecules.",
+    choices="Water at 20 degC, 20 degrees, Hamaker's constant 1e-19 J; cut-off 0.165 nm marked. "
+    "Kelvin's equation below 1 nm treats a few molecules.",
 )
 
 RADII = np.array([10.0, 100.0, 1000.0]) * nm

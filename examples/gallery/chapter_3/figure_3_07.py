@@ -29,9 +29,9 @@ PAGE = Page(
     claim="A meniscus of 100 nm radius and 2 nm height between flats breaks earlier if the "
     "contact angles of the two bodies differ; the pair 180/120 degrees breaks before all "
     "others.",
-    verdict="The first statement holds. The second rests on the closed neck of the arc as the "
-    "point of rupture. A bridge loses its stability long before: for 60/60 and 120/120 degrees "
-    "at a third and a half of that gap. By the exact limit 0/60 degrees break before 180/120.",
+    verdict="The first statement holds. The second rests on the closed neck of the arc: a bridge "
+    "loses its stability at a third to a half of that gap, and by the exact limit 0/60 "
+    "degrees break before 180/120.",
     grid="101 points along each meridian; exact volume of the arc at 2 nm",
 )
 

@@ -22,12 +22,12 @@ PAGE = Page(
     title="Menisci under a rising sphere",
     claim="A meniscus of 2 nm height under a sphere of 100 nm (60/60 degrees) breaks earlier if "
     "there is a gap of 1 nm at the start than if the sphere touches the flat.",
-    verdict="It holds, as of the same height at the rim the film with a gap has only three "
-    "quarters of the liquid. The exact bridge breaks at less than a third of the gap at which "
-    "the neck of the arc closes.",
+    verdict="It holds: of the same height at the rim the film with a gap has three quarters of "
+    "the liquid. The exact bridge breaks at less than a third of the gap at which the "
+    "neck of the arc closes.",
     grid="101 points along each meridian",
-    choices="Volume of the revolved arc with its rim at 2 nm; the limit of stability is that on "
-    "the sphere, the closed neck that of the arc on the paraboloid of Eq. (3.37).",
+    choices="Volume of the revolved arc; limit of stability on the sphere, closed neck on the "
+    "paraboloid of Eq. (3.37).",
 )
 
 HEIGHT, PAIR = 2 * nm, (60, 60)

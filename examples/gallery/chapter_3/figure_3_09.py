@@ -34,16 +34,15 @@ from contactkit.units import nm
 PAGE = Page(
     name="3.9",
     title="Meniscus force over the separation of flats",
-    claim="The force falls with the separation, fast at first; a lower film has the larger "
-    "force; unlike angles raise it. Non-wetting films repel and attract slightly late in the "
-    "separation, which an angle of 180 degrees prevents.",
-    verdict="The trends hold for the exact bridge, but the order of the heights turns round "
-    "after 3 to 4 nm of separation, as the lower film has less liquid; the source notes this "
-    "for 180/120 only. The printed Eq. (3.11) leaves out the curvature around the axis: up to 6 "
-    "% off at the start, twice the force near rupture, and the attraction of 120/120 degrees "
-    "sets in at 0.6 of the separation it should. It continues to the closed neck of the arc, up "
-    "to three times the gap at which the bridge breaks. The number of Eq. (3.42) does not make "
-    "the curves of different heights one; force times h0 over pi x^2 gamma nearly does.",
+    claim="The force falls with the separation; a lower film has the larger force; unlike "
+    "angles raise it. Non-wetting films repel, and attract slightly late in the "
+    "separation.",
+    verdict="The trends hold, but the order of the heights turns round after 3 to 4 nm, as the "
+    "lower film has less liquid; the source notes this for 180/120 only. Eq. (3.11) "
+    "leaves out the curvature around the axis: up to 6 % off at the start, twice the "
+    "force near rupture, and 120/120 degrees attract at 0.6 of the separation they "
+    "should. The number of Eq. (3.42) does not make the heights one curve; force times h0 "
+    "over pi x^2 gamma nearly does.",
     grid="about 120 gaps from h0 to the limit of stability, and to the closed neck",
     choices="Lower body pulled, its circle 100 nm at the start (source: not stated).",
 )

@@ -34,18 +34,15 @@ from contactkit.units import nm
 PAGE = Page(
     name="3.10",
     title="Viscous force over the separation of flats",
-    claim="The viscous force rises with the separation, fast at first, up to its value at the "
-    "break; a lower film has the larger one; the contact angles matter little.",
-    verdict="What rises is the impulse delivered so far, divided by the time of the whole "
-    "separation: no force acts that large at that gap. The force itself falls, at constant "
-    "speed as the fifth power of the gap, from 50 to 109 times its mean (355 times, were "
-    "rupture at the closed neck of 180 nm). The printed film keeps its radius although it keeps "
-    "its volume; drawn in, it delivers half of that impulse. That the angles matter little "
-    "follows: 94 % of the impulse is reached at twice the initial gap, long before rupture. Of "
-    "unlike angles the same curve only ends earlier.",
+    claim="The viscous force rises with the separation up to its value at the break; a lower "
+    "film has the larger one; the contact angles matter little.",
+    verdict="What rises is the impulse so far over the time of the whole separation. The force "
+    "itself falls, at constant speed as the fifth power of the gap, from 50 to 109 times "
+    "its mean. The printed film keeps its radius although it keeps its volume; drawn in, "
+    "it delivers half of that impulse. The angles matter little, as 94 % of the impulse "
+    "is reached at twice the initial gap.",
     grid="120 gaps from h0 to the limit of stability and the closed neck, four pairs of angles",
-    choices="The film is a disc of the volume pi x^2 h0; constant speed in panel (c) of the first "
-    "figure. The second one has the panels of the source.",
+    choices="The film is a disc of the volume pi x^2 h0; constant speed in panel (c).",
 )
 
 

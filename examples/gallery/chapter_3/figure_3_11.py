@@ -32,23 +32,18 @@ from contactkit.units import nm
 PAGE = Page(
     name="3.11",
     title="Forces on a rising sphere",
-    claim="Without a gap at the start a lower film has the larger meniscus force; this holds "
-    "for gaps below 1 nm and reverses for larger ones. The viscous force rises with separation "
-    "and height; without a gap both forces are larger and the meniscus breaks later.",
-    verdict="The order of the heights reverses, but at a gap of 0.2 to 0.6 nm, not at 1 nm: at "
-    "1 nm a lower film has clearly the smaller force. The printed Eq. (3.12), whose second "
-    "curvature has a plus for a minus, cannot give the reversal at all: by it a lower film has "
-    "the smaller force at every gap, also at contact. With the minus it reverses where the "
-    "exact force does. The viscous impulse of a touching sphere is infinite: with no gap at the "
-    "start the figure depends on a cut-off that is not stated. It is the impulse over t_s, not "
-    "a force.",
+    claim="Without a gap at the start a lower film has the larger meniscus force; for gaps "
+    "above 1 nm that reverses. The viscous force rises with separation and height; "
+    "without a gap both forces are larger and the meniscus breaks later.",
+    verdict="The order reverses at a gap of 0.2 to 0.6 nm, not at 1 nm. The printed Eq. (3.12), "
+    "with a plus for a minus, cannot give the reversal; with the minus it does where the "
+    "exact force does. The viscous impulse of a touching sphere is infinite: the figure "
+    "depends on a cut-off that is not stated.",
     grid="100 gaps up to rupture; 61 gaps at the start from 0 to 1.5 nm",
-    choices="Volume of the revolved arc under the paraboloid of Eq. (3.37); that under the sphere "
-    "changes the exact forces by at most 0.2 %. For a touching sphere the impulse counts from a "
-    "gap of 0.165 or 0.3 nm, the cut-offs of solids and of a layer of water."
-    " The source's dimensionless panels are the scales on the right, F/(gamma R) and t_s F/(eta "
-    "R2): it defines such numbers for flats only, Eqs. (3.42) and (3.43), and none for a sphere, "
-    "whose force and impulse have no other scale without the film.",
+    choices="Volume of the revolved arc under the paraboloid of Eq. (3.37), within 0.2 % of the "
+    "sphere. For a touching sphere the impulse counts from 0.165 or 0.3 nm. Dimensionless "
+    "scales on the right: F/(gamma R) and t_s F/(eta R2), as the source defines none for "
+    "a sphere.",
 )
 
 STARTS = (0.0, 1 * nm)

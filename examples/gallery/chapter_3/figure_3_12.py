@@ -35,19 +35,16 @@ from contactkit.units import deg, nm
 PAGE = Page(
     name="3.12",
     title="Forces between flats over the contact angles",
-    claim="A larger contact angle, of one body or of both, lowers the attraction of wetting "
-    "films and raises the repulsion of non-wetting ones; with unlike angles the force lies "
-    "between those of the two like pairs. The viscous force hardly depends on the angles.",
-    verdict="It holds for the exact bridge at every pair of angles. The printed Eq. (3.11) "
-    "itself has its maximum at tan(theta) = h/x: it rises up to 1.1 to 3.4 degrees here, and "
-    "falls beyond. Its break distance, the closed neck, is what makes the printed viscous force "
-    "fall, by less than a per cent, near 180 degrees. Over all pairs the viscous map is flat but "
-    "for two corners: where one body is wetted and the other not at all the film breaks after a "
-    "few nanometres. At 7.5/180 degrees it is 7 % lower there, the printed one 15 %.",
+    claim="A larger contact angle lowers the attraction of wetting films and raises the "
+    "repulsion of non-wetting ones; with unlike angles the force lies between those of "
+    "the two like pairs. The viscous force hardly depends on the angles.",
+    verdict="It holds for the exact bridge at every pair of angles. Eq. (3.11) itself rises up to "
+    "1.1 to 3.4 degrees, tan(theta) = h/x. The viscous map is flat but for two corners: "
+    "where one body is wetted and the other not at all the film breaks after a few "
+    "nanometres (7 % lower at 7.5/180 degrees, as printed 15 %).",
     grid="19 angles along each axis of the lines, 25 x 25 pairs in the maps",
-    choices="Circle of 100 nm on the lower body, which is pulled, at every pair of angles."
-    " The viscous film is a disc of this circle at each of them, as in Eq. (3.19); the liquid of "
-    "the arc has 0.6 to 1.5 times its volume in the two corners.",
+    choices="Circle of 100 nm on the lower body, which is pulled. The viscous film is a disc of "
+    "this circle; the arc has 0.6 to 1.5 times its volume in the two corners.",
 )
 
 FIXED = ((60, np.linspace(0.0, 90.0, 19)), (120, np.linspace(90.0, 180.0, 19)))  # [deg]

@@ -39,14 +39,12 @@ PAGE = Page(
     title="Viscous force over the separation time",
     claim="The viscous force falls steeply with the separation time and exceeds the meniscus "
     "force if that is short enough.",
-    verdict="What is drawn is an impulse over the time, so that it falls as 1/t_s exactly. It "
-    "exceeds the meniscus force at the start below 7 to 23 ns between flats of 100 nm, and below "
-    "1 to 8 ns under a sphere: at the source's 0.1 us the meniscus force is the larger one in all "
-    "three cases. The printed limit for rupture far away, Eq. (3.27), is zero for 2 nm and 41 to "
-    "56 % too large above.",
+    verdict="What is drawn is an impulse over the time: it falls as 1/t_s. It exceeds the "
+    "meniscus force at the start below 7 to 23 ns between flats of 100 nm, below 1 to 8 "
+    "ns under a sphere, not at the source's 0.1 us. Eq. (3.27), for rupture far away, is "
+    "zero for 2 nm and 41 to 56 % too large above.",
     grid="closed forms",
-    choices="60/60 degrees. For a touching sphere the impulse counts from a gap of 0.3 nm; from "
-    "0.165 nm it is larger by the factors in the table.",
+    choices="60/60 degrees. For a touching sphere the impulse counts from a gap of 0.3 nm.",
 )
 
 PAIR, GAP = (60, 60), 1 * nm

@@ -39,9 +39,7 @@ PAGE = Page(
     "above a critical area. That area grows with the separation time and the height, and as the "
     "contact angles fall.",
     verdict="It holds. As printed the critical areas are half of the right ones, since the "
-    "printed impulse of a film is twice that of one that keeps its volume. That a larger "
-    "meniscus moves the critical area has no meaning: it does not depend on the meniscus there "
-    "is.",
+    "printed impulse is twice that of a film that keeps its volume.",
     grid="41 areas, 7 separation times",
     choices="Rupture far away for the viscous force, as its end hardly matters (Fig. 3.10).",
 )

@@ -30,17 +30,15 @@ PAGE = Page(
     name="3.15",
     title="A film divided into N menisci",
     claim="Dividing 1 um2 of film raises the meniscus force, by the root of N if the menisci "
-    "are small, and lowers the viscous force as 1/N; the sum has a minimum at a few hundred.",
-    verdict="The trends and the few hundred hold for 2 nm; from 5 nm on it is below a hundred. Of "
-    "0/60 the source has a few hundred too: so it is only if the body of 60 degrees is pulled, "
-    "while in Fig. 3.9 it is that of 0 degrees, for which the printed law has no minimum. The "
-    "source is inconsistent about the body that is pulled. "
-    "Eq. (3.33) rises without end where the exact force of many small menisci levels off or, "
-    "for 0/60 degrees, falls again, and it gives numbers for menisci that do not exist: at 6 nm "
-    "at most 80 000 bridges of 60/60 degrees are stable, 14 000 of 0/60; the figure goes to 100 "
-    "000.",
+    "are small, and lowers the viscous force as 1/N; the sum has a minimum at a few "
+    "hundred.",
+    verdict="The few hundred hold for 2 nm; from 5 nm on the minimum is below a hundred. For 0/60 "
+    "it exists only if the body of 60 degrees is pulled, against Fig. 3.9. Eq. (3.33) "
+    "rises without end where the exact force levels off or falls again, and gives numbers "
+    "for menisci that do not exist: at 6 nm at most 80 000 bridges of 60/60 degrees are "
+    "stable, 14 000 of 0/60.",
     grid="41 numbers from 1 to 1e5",
-    choices="1 um2, not the radius of 100 nm that the caption also states and that has 0.031 um2.",
+    choices="1 um2, not the radius of 100 nm of the caption, which has 0.031 um2.",
 )
 
 AREA = 1 * um**2

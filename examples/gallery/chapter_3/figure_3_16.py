@@ -36,19 +36,16 @@ from contactkit.units import nm, um
 PAGE = Page(
     name="3.16",
     title="Many asperities, many menisci",
-    claim="On 100 x 100 um2 the force of N asperities rises with N, attraction and repulsion "
-    "alike, and their viscous force hardly changes. Of a smooth film of N menisci the "
-    "attraction rises slightly, the repulsion falls slightly, the viscous force falls fast. A "
-    "few asperities have far smaller forces than a smooth film.",
-    verdict="It holds. The force of wetting asperities goes nearly with the root of N, as N "
-    "spheres of R/n have n times its radius; the repulsion grows faster, as the slope of the "
-    "small spheres at the contact line adds to the contact angle. Their viscous impulse goes "
-    "with N^0, that of the film with 1/N. The drop of the viscous force at 180/120 degrees that "
-    "the source notes does not appear: it can only come from the break distance, which hardly "
-    "matters.",
+    claim="On 100 x 100 um2 the force of N asperities rises with N, and their viscous force "
+    "hardly changes. Of a smooth film of N menisci the attraction rises slightly, the "
+    "repulsion falls slightly, the viscous force falls fast. A few asperities have far "
+    "smaller forces than a smooth film.",
+    verdict="It holds. The force of wetting asperities goes nearly with the root of N; the "
+    "repulsion grows faster. Their viscous impulse goes with N^0, that of the film with "
+    "1/N. The drop at 180/120 degrees that the source notes does not appear.",
     grid="17 numbers n x n from 1 to 1e4",
-    choices="Height 100 nm; asperities are 10 nm away at the start (source: not stated), the "
-    "film between smooth faces fills the area of a circle of 50 um radius.",
+    choices="Height 100 nm; asperities 10 nm away at the start (source: not stated), the film "
+    "fills a circle of 50 um radius.",
 )
 
 SIDE, HEIGHT, START = 100 * um, 100 * nm, 10 * nm

@@ -35,16 +35,14 @@ from contactkit.units import nm
 PAGE = Page(
     name="3.18-3.19",
     title="Viscous force over a slide",
-    claim="The viscous force rises over the slide, fast at first, to its value when the overlap "
-    "is gone. Between flats a lower film has the larger one, under a sphere the smaller; a "
-    "sphere has far less than flats. The break distance depends on the height under a sphere "
-    "only.",
-    verdict="The orders hold. What rises is again the impulse so far over the time of the "
-    "slide; the force at constant speed is greatest at the start, 3 pi/4 times the printed "
-    "value between flats, and falls with the overlap to zero. Under a sphere Eq. (3.56) takes "
-    "the thickness at the rim for that everywhere: the film is thinner, and the impulse 42 to "
-    "127 % larger than printed with a gap of 1 nm. With no gap it is infinite, which the "
-    "printed form hides.",
+    claim="The viscous force rises over the slide to its value when the overlap is gone. "
+    "Between flats a lower film has the larger one, under a sphere the smaller; a sphere "
+    "has far less than flats.",
+    verdict="The orders hold. What rises is the impulse so far over the time; the force at "
+    "constant speed is greatest at the start, 3 pi/4 times the printed value between "
+    "flats, and falls to zero. Under a sphere Eq. (3.56) takes the thickness at the rim "
+    "everywhere: the impulse is 42 to 127 % larger with a gap of 1 nm, infinite with "
+    "none.",
     grid="200 points of the travel, simulated",
     choices="The sphere is 1 nm away; the caption states no gap.",
 )

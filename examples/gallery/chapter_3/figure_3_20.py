@@ -29,10 +29,10 @@ PAGE = Page(
     title="Viscous force of a slide over its time",
     claim="The viscous force goes with the inverse of the separation time; that of a sphere "
     "that touches the flat is far smaller than that of flats.",
-    verdict="The impulse does not depend on the time, so that its mean goes as 1/t_s exactly. "
-    "Of a touching sphere Eq. (3.56) gives a finite value only because it takes the thickness "
-    "at the rim everywhere: the impulse grows as the logarithm of the gap, without bound. At "
-    "0.3 nm it is two to three times the printed one; the order of sphere and flats stays.",
+    verdict="The mean of the impulse goes as 1/t_s exactly. Of a touching sphere Eq. (3.56) is "
+    "finite only because it takes the thickness at the rim everywhere: the impulse grows "
+    "as the logarithm of the gap. At 0.3 nm it is two to three times the printed one; the "
+    "order of sphere and flats stays.",
     grid="closed forms; 41 gaps from 0.01 to 1 nm",
     choices="Panel (b) starts from a gap of 0.3 nm.",
 )

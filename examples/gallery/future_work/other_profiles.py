@@ -20,11 +20,10 @@ PAGE = Page(
     title="Other than circular profiles",
     claim="Future work of section 3.5: menisci whose meridian is no arc of a circle.",
     verdict="The exact meridian is one of Delaunay: a nodoid while the film is low, a catenoid at "
-    "one gap, an unduloid beyond, and the package takes it. In its place other simple curves that "
-    "keep volume and contact angles are worse than the arc: a low film is an arc in the limit, "
-    "while parabola and hyperbola miss its curvature at the neck for good, by 15 % of the force "
-    "at 60 degrees and by a factor of two at 30. Near 90 degrees all agree. Next to rupture none "
-    "is right. Beyond contactkit: profiles under gravity, and menisci that are not round.",
+    "one gap, an unduloid beyond. Other simple curves that keep volume and contact angles "
+    "are worse than the arc: parabola and hyperbola miss its curvature at the neck by 15 "
+    "% of the force at 60 degrees and a factor of two at 30. Next to rupture none is "
+    "right.",
     choices="Flats, equal angles of 30, 60 and 80 degrees; lengths over the cube root of the "
     "volume; force through the neck.",
     grid="60 gaps from 0.02 of the limit of stability up to it",

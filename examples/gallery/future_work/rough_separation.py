@@ -24,15 +24,13 @@ PAGE = Page(
     claim="Rough surfaces of chapter 3 are equal spheres of one height; future work of section "
     "3.5: random rough surfaces.",
     verdict="Summits of a random surface detach one after the other. At first touch some per cent "
-    "of them hold a meniscus, so that as many equal asperities of one height have a hundred times "
-    "the force. Summits of normal heights (Greenwood and Williamson) have the force of the map "
-    "within a factor of two, in the median: the highest summit of a map is a random number. "
-    "Beyond contactkit: films that flow from one meniscus to another, menisci that merge, and "
-    "surfaces that bend as they are drawn apart.",
+    "of them hold a meniscus: as many equal asperities of one height have a hundred times "
+    "the force. Summits of normal heights (Greenwood and Williamson) have the force of "
+    "the map within a factor of two, in the median. Beyond contactkit: films that flow "
+    "between menisci, menisci that merge.",
     choices="Rigid surface of rms 1 nm, correlation length 0.2 um, shortest wave 40 nm, over a "
-    "flat; water, 60/60 degrees, at a pressure whose menisci end at 1 nm. An exact bridge of that "
-    "pressure on the sphere that stands for each island of the gap. Separation counts from first "
-    "touch.",
+    "flat; water, 60/60 degrees, at a pressure whose menisci end at 1 nm, an exact bridge "
+    "on each island. Separation counts from first touch.",
     grid="512 x 512 pixels on 2 um, eight to the shortest wave",
     seeds="1 to 5: median, and a band from the least to the greatest",
 )

@@ -18,18 +18,15 @@ from contactkit.units import deg, nm
 PAGE = Page(
     name="sliding-angles",
     title="Contact angles in tangential separation",
-    claim="The tangential separation of the source leaves contact angles out: the meniscus has "
-    "flat boundaries. Section 3.5 leaves them to future work.",
-    verdict="A meniscus that slides advances with a larger angle than it recedes with, and holds "
-    "the body back by k gamma w (cos theta_r - cos theta_a), w its width. This force does not "
-    "depend on the speed while the drag does, so that below a speed it is the larger one: 0.2 m/s "
-    "between the flats of the source and 1 m/s under its sphere for a hysteresis of 20 degrees. "
-    "Its work per area that is laid bare is a property of the surface, whatever the film. Beyond "
-    "contactkit: angles that depend on the speed, the shape of the meniscus as it is sheared, and "
-    "liquid that is left behind.",
-    choices="Water, flats with a meniscus of 100 nm at 2 nm and a sphere of 100 nm at 1 nm with a "
-    "film of 2 nm; mean angle 60 degrees, hysteresis on one body; k = 2/pi. Valid for eta v/gamma "
-    "below 1, or 80 m/s.",
+    claim="The tangential separation of the source leaves contact angles to future work.",
+    verdict="A meniscus that slides holds the body back by k gamma w (cos theta_r - cos theta_a), "
+    "w its width. This force does not depend on the speed, so that below 0.2 m/s between "
+    "the flats of the source and 1 m/s under its sphere, for a hysteresis of 20 degrees, "
+    "it exceeds the drag. Beyond contactkit: angles that depend on the speed, the shape "
+    "of the sheared meniscus.",
+    choices="Water, flats with a meniscus of 100 nm at 2 nm, a sphere of 100 nm at 1 nm with a "
+    "film of 2 nm; mean angle 60 degrees, hysteresis on one body; k = 2/pi. Valid for eta "
+    "v/gamma below 1, or 80 m/s.",
     grid="200 points along the slide; hysteresis from 0 to 60 degrees",
 )
 MEAN = 60.0  # [deg]

@@ -23,15 +23,13 @@ PAGE = Page(
     claim="Future work of sections 2.4 and 3.5: stick-slip, vibration induced by friction, with "
     "springs and dampers.",
     verdict="Menisci add to the load: they raise the force at which the slider breaks away, and "
-    "its slips grow by as much, and by far more if they rupture while it moves. The film damps the "
-    "slip: it shortens the overshoot, and above a speed, or above a damping, the slider does not "
-    "come to rest again and slides on steadily, under kinetic friction and drag. Beyond "
-    "contactkit: springs and dampers at each asperity, friction that ages at rest or depends on "
-    "the speed, motion normal to the faces, wear.",
-    choices="A slider of 10 mg under 20 mN, friction 0.3 at rest and 0.2 in motion, spring of 50 "
-    "N/m drawn at 1 mm/s. 100 menisci of a lubricant (30 mN/m, 50 mPa.s) of 5 um at 20 nm, 60/60 "
-    "degrees: their exact force, and the drag of their films. At rest and in motion alike, or "
-    "ruptured in motion.",
+    "its slips, by far more if they rupture while it moves. The film shortens the "
+    "overshoot, and above a speed or a damping the slider slides on steadily. Beyond "
+    "contactkit: friction that ages at rest or depends on the speed, motion normal to the "
+    "faces, wear.",
+    choices="10 mg under 20 mN, friction 0.3 at rest and 0.2 in motion, spring of 50 N/m drawn at "
+    "1 mm/s. 100 menisci of a lubricant (30 mN/m, 50 mPa.s) of 5 um at 20 nm, 60/60 "
+    "degrees, at rest and in motion alike, or ruptured in motion.",
     grid="5 slips; 40 speeds",
 )
 BLOCK = ck.SpringSlider(

@@ -20,17 +20,16 @@ PAGE = Page(
     name="vibration",
     title="A gap that vibrates while it opens",
     claim="Section 3.4 names oscillation of high frequency as a means against meniscus and "
-    "viscous forces; section 3.5 leaves the effect of vibration to future work.",
-    verdict="A film that stays whole resists closing as it resists opening: at every amplitude "
-    "vibration leaves its impulse as it is. Only a film that cavitates on opening is rectified: it "
-    "still resists closing, so that its mean force falls, and pushes the bodies apart once the "
-    "amplitude is large. The meniscus force, convex in the gap, rises on the mean by a quarter of "
-    "its second derivative times the amplitude squared; but the meniscus breaks earlier, when the "
-    "gap first exceeds its limit. Beyond contactkit: inertia of the liquid, waves in the bodies, "
-    "vibration along the bodies, and friction.",
-    choices="Oil of 0.1 Pa.s and 30 mN/m, flat discs of 1 mm, opened from 5 to 10 um at 10 um/s; "
-    "60 Hz. Cavitated film: bears 0.1 MPa, truncated pressure. Meniscus: 1 pl of the oil, 60/60 "
-    "degrees, under a sphere of 1 mm, from 1 to 2 um and to its end at 2 um/s.",
+    "viscous forces; section 3.5 leaves it to future work.",
+    verdict="Vibration leaves the impulse of a film that stays whole as it is. A film that "
+    "cavitates on opening is rectified: its mean force falls, and pushes the bodies apart "
+    "once the amplitude is large. The meniscus force, convex in the gap, rises on the "
+    "mean by a quarter of its second derivative times the amplitude squared; but the "
+    "meniscus breaks earlier. Beyond contactkit: inertia of the liquid, waves in the "
+    "bodies.",
+    choices="Oil of 0.1 Pa.s and 30 mN/m, discs of 1 mm, from 5 to 10 um at 10 um/s; 60 Hz. "
+    "Cavitated film: bears 0.1 MPa, truncated pressure. Meniscus: 1 pl, 60/60 degrees, "
+    "under a sphere of 1 mm, from 1 to 2 um and to its end at 2 um/s.",
     grid="8 amplitudes; every cycle by Gauss quadrature",
 )
 OIL = ck.Liquid(name="oil", viscosity=0.1, surface_tension=0.03, density=870.0)

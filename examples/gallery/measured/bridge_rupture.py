@@ -20,25 +20,19 @@ PAGE = Page(
     name="bridge-rupture",
     title="Rupture of liquid bridges over speed",
     claim="Pitois, Moucheront and Chateau (J. Colloid Interface Sci. 231, 2000, 26; abstract "
-    "read): the rupture distance of a bridge between spheres grows like the square root of the "
-    "speed. DynamicRupture has h_r = h_s (1 + Ca^(1/2)), a form and a factor quoted after "
-    "others. The points are in Fig. 8, at speeds of 0.1 to 15 um/s as a script of "
-    "Leibniz-IWT/ddgclib says (it shows the picture, without numbers): they could not be read, "
-    "nor could those of Zhang, Padgett and Basaran (1996), of Zhuang and Ju (2015; abstract: "
-    "far beyond the static limit for viscous liquids) and of Dodds, Carvalho and Kumar.",
-    verdict="Not decided by data, as no point could be read. Held against a viscous bridge "
-    "between two rods, computed here: its excess over the static limit is 1.15 Ca^(2/3), to a "
-    "tenth, from Ca = 1e-4 to 0.1, the power of any slow passage through a fold, and nearly in "
-    "proportion to Ca beyond. The square root gives 2.7 times that excess at Ca = 1e-3, 1.9 times "
-    "at 0.01, 1.2 times at 0.1 and half of it at 1. As the excess is small where they differ, "
-    "the distance itself is at most 6 % too large up to Ca = 0.1: the law serves there, and is a "
-    "third short at 1. Without data of one's own, factor 1.15 and exponent 2/3 are as well "
-    "founded. Rods hold their contact line and spheres do not; friction of a line, weight and "
-    "inertia are left out.",
-    choices="Pitois' spheres: 4 mm, 1.1 mm3, 21 mN/m, 0 degrees, and 100 Pa.s (not verified, see "
-    "measured-bridges). Rods of radius R with 2 pi R^3 of liquid, a cylinder when they are 2 R "
-    "apart. One-dimensional Stokes flow with the whole curvature: tension 3 eta pi h^2 v' + "
-    "gamma (2 pi h/(1 + h'^2)^(1/2) - pi h^2 k) the same all along; symmetric halves.",
+    "read): the rupture distance of a bridge between spheres grows like the square root "
+    "of the speed. DynamicRupture has h_r = h_s (1 + Ca^(1/2)), quoted after others. "
+    "Their points could not be read, nor those of Zhang, Padgett and Basaran (1996), "
+    "Zhuang and Ju (2015) and Dodds, Carvalho and Kumar.",
+    verdict="Not decided by data. A viscous bridge between two rods, computed here, has an excess "
+    "over the static limit of 1.15 Ca^(2/3), to a tenth, from Ca = 1e-4 to 0.1. The "
+    "square root gives 2.7 times that excess at Ca = 1e-3, 1.2 times at 0.1, half at 1; "
+    "the distance itself is at most 6 % too large up to Ca = 0.1. Without data of one's "
+    "own, factor 1.15 and exponent 2/3 are as well founded. Rods hold their contact line "
+    "and spheres do not.",
+    choices="Pitois' spheres: 4 mm, 1.1 mm3, 21 mN/m, 0 degrees, 100 Pa.s (not verified). Rods of "
+    "radius R with 2 pi R^3 of liquid. One-dimensional Stokes flow with the whole "
+    "curvature; weight and inertia left out.",
     grid="121 nodes on half the bridge, 241 below Ca = 1e-3; BDF to 1e-5",
 )
 GIVEN = case("pitois_2000_fig5")

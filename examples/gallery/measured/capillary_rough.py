@@ -20,24 +20,18 @@ from contactkit.roughness.statistics import rms_slope
 PAGE = Page(
     name="capillary-rough",
     title="Rough solids pulled together by capillary bridges",
-    claim="B.N.J. Persson (J. Phys.: Condens. Matter 20, 2008, 315007, arXiv:0805.0684; abstract "
-    "read, not the paper): with capillary bridges of a height d_K, hard solids have most real "
-    "contact where the liquid just fills the space between them, typically d_K of about 3 rms "
-    "heights, and soft solids at very small d_K, where the bridges pull them into nearly complete "
-    "contact. The work of adhesion of both is largest at d_K far above the rms height, and then "
-    "2 gamma cos(theta).",
+    claim="B.N.J. Persson (J. Phys.: Condens. Matter 20, 2008, 315007, arXiv:0805.0684; "
+    "abstract read): with capillary bridges of a height d_K hard solids have most real "
+    "contact at d_K of about 3 rms heights, soft solids at very small d_K. The work of "
+    "adhesion is largest at d_K far above the rms height, and then 2 gamma cos(theta).",
     verdict="Met, as far as an abstract can be. The hardest solid has most contact at 3.1 to 3.6 "
-    "rms heights, by seed. A fifth of its modulus moves that to 2.1, though flattening such a "
-    "surface still takes five times 2 gamma cos(theta): 'about 3' is for the hard limit. The work "
-    "comes near 2 gamma cos(theta) slowly, as 1 less the mean gap over d_K: 97 % of it take 100 "
-    "rms heights.",
-    choices="gamma = 72 mN/m, 30 degrees on both bodies, rms height 1 nm, Hurst exponent 0.8, "
-    "waves from a quarter of the window of 256 nm to a sixteenth, E* = 100, 20 and 1 GPa, all ours;"
-    " those of the source are not in the abstract. DugdaleAttraction.from_meniscus: every gap "
-    "below d_K is wet. No outer load; solids come from far apart. Heights d_K below "
-    "half the rms height need finer grids and are left out. Statistics of a rough surface: p = "
-    "2 gamma cos(theta)/d_K times the fraction of a normal distribution of gaps that is wet, the "
-    "mean gap over p from dry contact, area by the law of the page rough-area.",
+    "rms heights; a fifth of its modulus moves that to 2.1. The work comes near 2 gamma "
+    "cos(theta) slowly: 97 % of it take 100 rms heights.",
+    choices="gamma = 72 mN/m, 30 degrees, rms height 1 nm, Hurst exponent 0.8, waves from a "
+    "quarter of the window of 256 nm to a sixteenth, E* = 100, 20 and 1 GPa, all ours. "
+    "DugdaleAttraction.from_meniscus: every gap below d_K is wet. No outer load. Heights "
+    "d_K below half the rms height are left out. Statistics: p = 2 gamma cos(theta)/d_K "
+    "times the wet fraction of a normal distribution of gaps.",
     grid="192 x 192 pixels, periodic; 128 x 128 for the softest",
     seeds="1 to 3",
 )

@@ -21,19 +21,16 @@ from contactkit.units import celsius
 PAGE = Page(
     name="cold-oil",
     title="A cold engine oil by Walther's law, and the injector's cold case",
-    claim="The handbook of Incropera and DeWitt (Table A.5, as typed into "
-    "stalbot8/convection_problems, commit 5b2c8373) lists viscosity and density of an unused "
-    "engine oil from 273 to 430 K; SAE J300 (1999 and 2015, as quoted on two web pages) the "
-    "limits of a 15W-40.",
+    claim="Incropera and DeWitt (Table A.5, as typed into stalbot8/convection_problems) list "
+    "viscosity and density of an unused engine oil from 273 to 430 K; SAE J300 (1999 and "
+    "2015, as quoted on two web pages) the limits of a 15W-40.",
     verdict="Between its two points, 310 and 370 K, and up to 430 K Walther's law is within 3 %. "
-    "Below it is an extrapolation and overrates a cold oil: 7 % at 290 K, 20 % at 280 K, 39 % at "
-    "273 K, and nothing was found that is colder. Our 15W-40 stands on 40 and 100 degC: 14.2 cSt "
-    "and 4.4 mPa.s are inside J300; at -20 degC, the injector's cold case, its 7.55 Pa.s is 8 % "
-    "above the 7.0 allowed to a sheared oil. If the trend goes on, the true value there may be "
-    "half of ours. The injector's answer bears it: with half the viscosity an oil that cavitates "
-    "into vapour is released at the same 0.342 ms, one that sustains 10 bar 0.2 % sooner, 12 bar "
-    "2 %, and 13 bar, where the film nearly holds the pull, 13 % sooner. What goes with the "
-    "viscosity itself is the time in which the cold cavity fills.",
+    "Below it overrates a cold oil: 7 % at 290 K, 20 % at 280 K, 39 % at 273 K. Our "
+    "15W-40 is inside J300 when hot; at -20 degC its 7.55 Pa.s is 8 % above the 7.0 "
+    "allowed to a sheared oil, and the true value may be half of ours. The injector bears "
+    "it: with half the viscosity an oil that cavitates into vapour is released at the "
+    "same 0.342 ms, one that sustains 10 bar 0.2 % sooner, 12 bar 2 %, and 13 bar, where "
+    "the film nearly holds the pull, 13 %.",
     choices="The error bar at -20 degC, from half to the full viscosity of the law: it is ours, "
     "from the trend of one oil.",
     grid="17 temperatures; 20 first injections by the monolithic model",

@@ -16,12 +16,12 @@ from contactkit.reference import hertz
 PAGE = Page(
     name="contact-ball",
     title="Ball on a plane on 19 x 19 elements, by Kalker's program CONTACT",
-    claim="CONTACT (E. Vollebregt, after J. Kalker 1990, section 5.2.1.1; revision 2707 as "
-    "stored in eve70a/CONTACT, commit d431cdbd, Apache-2.0) presses two equal bodies together "
-    "and prints the pressure of each element, the approach and which elements touch.",
-    verdict="The same 177 elements touch, and every pressure has the digits that CONTACT prints. "
-    "Both programs solve the same discrete problem: pressures that are uniform on elements, gaps "
-    "at their centres. Against Hertz the coarse grid is 0.05 % off in the maximum.",
+    claim="CONTACT (E. Vollebregt, after Kalker 1990, section 5.2.1.1; as stored in "
+    "eve70a/CONTACT, Apache-2.0) presses two equal bodies together and prints the "
+    "pressure of each element, the approach and which elements touch.",
+    verdict="The same 177 elements touch, and every pressure has the digits that CONTACT prints: "
+    "both solve the same discrete problem. Against Hertz the coarse grid is 0.05 % off in "
+    "the maximum.",
     grid="19 x 19 elements of 0.13333 mm, not periodic; a second solve on 95 x 95",
 )
 CASE = case("contact_hertz_grid")

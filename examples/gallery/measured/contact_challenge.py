@@ -24,30 +24,23 @@ from contactkit.roughness.statistics import rms_slope
 PAGE = Page(
     name="contact-challenge",
     title="The contact-mechanics challenge",
-    claim="Muser et al. (Tribol. Lett. 65, 2017, 118; problem in arXiv:1512.02403, abstract read) "
-    "set one contact for all methods: self-affine roughness, linear elasticity, small slopes, "
-    "adhesion of short range. Read in the program of one of those who took part (example and its "
-    "printed output, ContactEngineering/Adhesion): E* = 25 MPa, 50 mJ/m2, range 2.071 nm, "
-    "reference load 250 kPa; the published map at 512 x 512 points has a rms height of 0.7622 um, "
-    "a rms slope of 0.7336 and a rms curvature of 2.509 /um, both by differences; a range thirty "
-    "times as long takes its load from 250 to 245.56 kPa where the bodies are held. Hurst "
-    "exponent 0.8, roll-off at 20 um, waves from 100 um to 0.1 um and the rms slope of 1 are from "
-    "memory, and so is that 250 kPa is a hundredth of E* times that slope. The published area, "
-    "gap and stresses could not be read, nor could the map.",
-    verdict="The statement is confirmed: surfaces of that spectrum have the slope and curvature of "
-    "the published map to 0.5 %, and its height within their scatter. The attraction of the "
-    "longer range takes 3.5 to 4.3 kPa from the load of ours, 4.44 from that of the other "
-    "program's one map. Without adhesion 2.08 % of the area touch at the reference load, to 1.5 "
-    "%: waves below 0.8 um are extrapolated, as a run at 0.4 um confirms. Persson's "
-    "theory gives 1.60 %; his mean gap is larger than ours, by 5 % at the reference load and 2 to "
-    "16 % over the range, where few of the longest waves carry light loads. What is not there: the "
-    "range of 2.071 nm asks for "
-    "pixels of a nanometre, ten thousand million of them, so that the area with adhesion, "
-    "about 3 % from memory, is not computed.",
-    choices="Own random phases; one seed keeps its long waves over all cut-offs. Where waves "
-    "below a cut-off are left out, the others stay as they are. Areas are corrected at their "
-    "edges. The other program lets the mean displacement yield with the stiffness of the longest "
-    "wave (its documentation), so that ours is led along that line.",
+    claim="Muser et al. (Tribol. Lett. 65, 2017, 118; arXiv:1512.02403, abstract read) set one "
+    "contact for all methods: self-affine roughness, linear elasticity, small slopes, "
+    "adhesion of short range. Read in the example of a participant "
+    "(ContactEngineering/Adhesion): E* = 25 MPa, 50 mJ/m2, range 2.071 nm, reference load "
+    "250 kPa; a rms height of 0.7622 um, slope 0.7336, curvature 2.509 /um at 512 x 512 "
+    "points; a range thirty times as long takes its load to 245.56 kPa. Hurst exponent "
+    "0.8, roll-off at 20 um, waves from 100 to 0.1 um are from memory. The published "
+    "area, gap, stresses and map could not be read.",
+    verdict="Confirmed: surfaces of that spectrum have the slope and curvature of the published "
+    "map to 0.5 %, its height within their scatter. The attraction of the longer range "
+    "takes 3.5 to 4.3 kPa from the load, there 4.44. Without adhesion 2.08 % of the area "
+    "touch at the reference load, to 1.5 % (waves below 0.8 um extrapolated); Persson's "
+    "theory gives 1.60 %. The range of 2.071 nm asks for pixels of a nanometre, ten "
+    "thousand million of them: the area with adhesion is not computed.",
+    choices="Own random phases; one seed keeps its long waves over all cut-offs. Areas are "
+    "corrected at their edges. The other program lets the mean displacement yield with "
+    "the stiffness of the longest wave, and ours is led along that line.",
     grid="512 x 512 points out of 2048 x 2048 for the whole spectrum; 8 pixels to the shortest "
     "wave else, 256 to 2048 a side, periodic",
     seeds="1 to 4; the finest cut-off 1",

@@ -16,12 +16,11 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="contact-square",
     title="Stress under a loaded and sheared square, by the program CONTACT",
-    claim="CONTACT (E. Vollebregt, after J. Kalker 1990, Fig. 5.20; revision 2707 as stored in "
-    "eve70a/CONTACT, commit d431cdbd, Apache-2.0) prints the six stresses at points below a square "
-    "of pressure 1 and traction 0.999.",
-    verdict="Agrees to all six digits that CONTACT prints, at every depth from 0.1 of the side on. "
-    "The map is read as uniform on its pixels, as CONTACT reads its elements; how many pixels the "
-    "square has then does not matter.",
+    claim="CONTACT (E. Vollebregt, after Kalker 1990, Fig. 5.20; as stored in eve70a/CONTACT, "
+    "Apache-2.0) prints the six stresses at points below a square of pressure 1 and "
+    "traction 0.999.",
+    verdict="Agrees to all six digits at every depth from 0.1 of the side on. The map is read as "
+    "uniform on its pixels, as CONTACT reads its elements.",
     grid="pixels of 0.02 of the side, on a window of 6.4 sides",
 )
 CASE = case("contact_subsurface")

@@ -17,15 +17,14 @@ from contactkit.reference import viscous_films as films
 PAGE = Page(
     name="film-forces",
     title="Viscous films: Stefan, Reynolds, Brenner, and Goldman, Cox and Brenner",
-    claim="Stefan (1874) and Reynolds (1886) give the force on a disc and on a sphere that leave a "
-    "flat, from lubrication theory. Brenner (Chem. Eng. Sci. 16, 1961, 242, Eq. 2.19) solves the "
-    "Stokes flow around a sphere near a wall; Goldman, Cox and Brenner (ibid. 22, 1967, 637, Eq. "
-    "2.65) a sphere that slides along it, for narrow gaps. Both as in public programs "
-    "(RigidMultiblobsWall, CCEPdynamics); the papers were not read.",
-    verdict="A flooded disc follows Stefan's law, and a constant force takes his time, to the "
-    "accuracy of the integration. A flooded sphere follows Reynolds; what lubrication theory lacks "
-    "of the exact flow is 0.2 % at a gap of a thousandth of the radius, 2 % at a hundredth and "
-    "13 % at a tenth. The drag of sliding in a round film has Goldman's slope, -8/15 of a "
+    claim="Stefan (1874) and Reynolds (1886) give the force on a disc and on a sphere that "
+    "leave a flat. Brenner (Chem. Eng. Sci. 16, 1961, 242, Eq. 2.19) solves the Stokes "
+    "flow around a sphere near a wall; Goldman, Cox and Brenner (ibid. 22, 1967, 637, Eq. "
+    "2.65) a sphere that slides along it. Both as in public programs; the papers were not "
+    "read.",
+    verdict="A flooded disc follows Stefan's law, a flooded sphere Reynolds; lubrication theory "
+    "lacks 0.2 % of the exact flow at a gap of a thousandth of the radius, 2 % at a "
+    "hundredth and 13 % at a tenth. The drag of sliding has Goldman's slope, -8/15 of a "
     "logarithm; its constant is smaller, since no liquid lies beyond the rim.",
     grid="81 gaps; one motion of 0.24 s",
 )

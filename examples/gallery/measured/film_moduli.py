@@ -15,18 +15,16 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="film-moduli",
     title="Storage and loss modulus of a film between bodies that deform",
-    claim="A sphere that vibrates over a flat in a liquid: far above the gap D_c = 8 R (eta omega/"
-    "E*)^(2/3) the loss modulus is 6 pi eta omega R^2/D, and bodies that deform add a storage "
-    "modulus in proportion to omega^2; far below, both grow as omega^(1/3), at a phase of 30 "
-    "degrees (Leroy and Charlaix 2011). On a thin layer the deformation is local: in proportion "
-    "to the pressure if it is compressible, to its Laplacian if not.",
-    verdict="Met: the limits to some parts in 1e4, which is the rim; the phase is within a degree "
-    "of 30 at 1/1000 of D_c. A layer of 0.05 of the width of the pressure is 0.1 % off the limit "
-    "of a thin one where it is compressible, and 1 % where it is not.",
-    choices="R = 5 mm, D = 1 um, 0.1 Pa.s; the storage modulus of stiff bodies, (27 pi^3/2^3.5) "
-    "(eta omega)^2 R^3.5/(E* D^2.5), of a flat (512/35)(eta omega)^2 R^7/(E* h^6), and those of "
-    "thin layers are ours, by the work of the first pressure on the displacement that it makes. "
-    "The papers give D_c and the exponents; their measured curves could not be read.",
+    claim="A sphere that vibrates over a flat in a liquid: far above D_c = 8 R (eta "
+    "omega/E*)^(2/3) the loss modulus is 6 pi eta omega R^2/D, and the storage modulus "
+    "grows as omega^2; far below, both grow as omega^(1/3), at a phase of 30 degrees "
+    "(Leroy and Charlaix 2011). A thin layer deforms in proportion to the pressure if "
+    "compressible, to its Laplacian if not.",
+    verdict="Met: the limits to some parts in 1e4; the phase is within a degree of 30 at 1/1000 "
+    "of D_c. A layer of 0.05 of the width of the pressure is 0.1 % off the limit of a "
+    "thin one where compressible, 1 % where not.",
+    choices="R = 5 mm, D = 1 um, 0.1 Pa.s; the closed forms of the storage moduli are ours. "
+    "Measured curves could not be read.",
     grid="120 to 360 rings, three meshes",
 )
 R, GAP, VISCOSITY = 5e-3, 1e-6, 0.1

@@ -21,26 +21,21 @@ from contactkit.roughness.random_surfaces import SelfAffineSpectrum, self_affine
 PAGE = Page(
     name="full-contact",
     title="Up to full contact",
-    claim="Other programs do not converge there: ContactEngineering/ContactMechanics issue 3 "
-    "(open since 2020: Polonsky and Keer's iteration near full contact) and issue 68 (a rms "
-    "gradient of about 0.08 and a hardness of 0.1 E*: no convergence above a pressure of 0.07 "
-    "E*). Exact: a map is in full contact from the pressure on at which the stress that flattens "
-    "all its waves, E* q h/2 each, is nowhere a tension. Johnson, Greenwood and Higginson (Int. "
-    "J. Mech. Sci. 27, 1985, 383; formulas from memory) for h = D cos(2 pi x/l) cos(2 pi y/l): "
-    "p* = sqrt(2) pi E* D/l; 1 - A = 3/(2 pi) (1 - p/p*) just below it, and A = pi (3 p/(8 pi "
-    "p*))^(2/3) under light loads. Persson (2001): 1 - A = erfc(sqrt(2) p/(E* g)), exact at full "
-    "contact of a Gaussian surface without end.",
-    verdict="Converges everywhere: at most 60 convolutions on grids of 128 to 1024, whatever the "
-    "load, elastic or with the hardness. A millionth below the exact pressure one pixel is open, "
-    "a millionth above it none. The wave meets both limits. Persson's law holds to a third from "
-    "80 to 97 % of contact, by seed, and cannot hold to the end: a finite map closes at 1.8 to 2.1 "
-    "E* g, where the law still leaves 1e-4 open. That others do not converge is quoted, not "
-    "reproduced: a plain iteration of Polonsky and Keer written here does, in 50 to 390 "
-    "convolutions, ever more with finer grids at half contact, and fewer near full contact. "
-    "What stops there is the rule or the limit of iterations, as issue 3 itself suspects.",
+    claim="ContactMechanics issue 3: no convergence near full contact; issue 68: none above "
+    "0.07 E* with a rms gradient of 0.08 and a hardness of 0.1 E*. Exact: a map closes at "
+    "the pressure at which the stress that flattens all its waves, E* q h/2 each, is "
+    "nowhere a tension. Johnson, Greenwood and Higginson (1985) for crossed waves: p* = "
+    "sqrt(2) pi E* D/l, with limits near p* and under light loads. Persson (2001): 1 - A "
+    "= erfc(sqrt(2) p/(E* g)).",
+    verdict="Converges everywhere: at most 60 convolutions on grids of 128 to 1024, elastic or "
+    "with the hardness. A millionth below the exact pressure one pixel is open, a "
+    "millionth above it none. The wave meets both limits. Persson's law holds to a third "
+    "from 80 to 97 % of contact, and cannot hold to the end: a finite map closes at 1.8 "
+    "to 2.1 E* g. That others do not converge is quoted, not reproduced: a plain "
+    "iteration of Polonsky and Keer written here does, in 50 to 390 convolutions.",
     choices="Hurst exponent 0.8, rms gradient 0.08, waves from a quarter of the window to 8 "
-    "pixels. Tolerance 1e-8, that of Polonsky and Keer 1e-6 of the height. Issue 68 does not give "
-    "its surface: the one here has its gradient and its hardness.",
+    "pixels. Tolerance 1e-8, that of Polonsky and Keer 1e-6 of the height. The surface of "
+    "issue 68 is not given; this one has its gradient and hardness.",
     grid="256 x 256 pixels, periodic; 128 to 1024 for the counts, 512 for the wave",
     seeds="1 to 3",
 )

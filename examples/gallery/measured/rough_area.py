@@ -17,14 +17,12 @@ from contactkit.roughness.random_surfaces import SelfAffineSpectrum, self_affine
 PAGE = Page(
     name="rough-area",
     title="Real area of contact of self-affine surfaces",
-    claim="A/A0 = erf(sqrt(pi) p/(E* g)), g the rms gradient: area in proportion to the load "
-    "with a factor kappa of 2 (quoted from Pastewka and Robbins, Appl. Phys. Lett. 108, 2016, "
-    "221601, in khiner/MeshEditor, commit 1ebb96a1; made for rough spheres). Factors of "
-    "simulations go from 2.0 to 2.5; Persson's theory has 1.60, that of Bush, Gibson and Thomas "
-    "2.51.",
-    verdict="Met to a round number, as it is one: 10 to 15 % below our areas at 1 % of contact, "
-    "the same at a fifth, 7 % above at two thirds. Our kappa at the smallest load, 2.3, lies "
-    "between both theories, as simulations do.",
+    claim="A/A0 = erf(sqrt(pi) p/(E* g)), g the rms gradient: a factor kappa of 2 at small "
+    "loads (quoted from Pastewka and Robbins, Appl. Phys. Lett. 108, 2016, 221601; made "
+    "for rough spheres). Simulations have 2.0 to 2.5, Persson's theory 1.60, that of "
+    "Bush, Gibson and Thomas 2.51.",
+    verdict="Met to a round number: 10 to 15 % below our areas at 1 % of contact, the same at a "
+    "fifth, 7 % above at two thirds. Our kappa at the smallest load is 2.3.",
     choices="Hurst exponent 0.8, rms gradient 0.1, waves from a fifth of the window to an "
     "eightieth. Areas are corrected at their edges.",
     grid="1024 x 1024 pixels, periodic, 12.8 to the shortest wave",

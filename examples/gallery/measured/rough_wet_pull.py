@@ -17,18 +17,17 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="rough-wet-pull",
     title="A rough, soft sphere on a film: pressed, left alone, pulled off",
-    claim="Roughness, film, cavities, contact and deformation act together. Without a film the "
-    "bodies are those of a dry contact; with one the suction of a pull presses the asperities "
-    "harder before it opens them, and the force of a pull from rest is that which two programs of "
-    "different methods have.",
-    verdict="Met: forces of a pull are those of a first program of our own, which shares no code, "
-    "within its error; after a long rest pressures are those of the contact solver. "
-    "The contact force grows while the net force is already a pull. No measurement of such a "
-    "cycle with all heights known could be found.",
-    choices="R = 5 mm, heights of four lengths of waves with an rms of 0.1 um on a square of "
-    "0.57 mm flooded at its edges, E* = 0.354 MPa, 0.1 Pa.s, h = 1 um, 10 um/s: beta = 1. The "
-    "cycle has heights of 0.2 um rms and a third of the wavelengths, 30 uN for 3000 s, asperities "
-    "at 0.2 um, cavities from a tension of 1.5 kPa.",
+    claim="Roughness, film, cavities, contact and deformation act together: without a film as "
+    "in a dry contact; with one the suction of a pull presses the asperities harder "
+    "before it opens them.",
+    verdict="Met: forces of a pull are those of a program that shares no code, within its error; "
+    "after a long rest pressures are those of the contact solver. The contact force grows "
+    "while the net force is already a pull. No measurement of such a cycle could be "
+    "found.",
+    choices="R = 5 mm, four wavelengths with an rms of 0.1 um on a square of 0.57 mm flooded at "
+    "its edges, E* = 0.354 MPa, 0.1 Pa.s, h = 1 um, 10 um/s: beta = 1. Cycle: 0.2 um rms, "
+    "a third of the wavelengths, 30 uN for 3000 s, asperities at 0.2 um, cavities from a "
+    "tension of 1.5 kPa.",
     grid="33 x 33 and 65 x 65 cells; errors fall by the square of the cell",
     seeds="phases by a linear congruence from 7",
 )

@@ -17,17 +17,15 @@ from contactkit.separation.deforming.maxwell import series_pull, series_stiffnes
 PAGE = Page(
     name="soft-pull",
     title="A soft sphere pulled off a film",
-    claim="Film and bodies are governed by one number, beta = eta v R^1.5/(E* h^2.5), which is "
-    "pi/4 of the elasticity parameter eps = 4 theta eta R^1.5 v/h^2.5 of Davis, Serayssol and "
-    "Hinch (1986), with theta the sum of (1 - nu^2)/(pi E). Where it is small the force is that of "
-    "rigid bodies, 6 pi eta R^2 v/h at once; where it is large the bodies follow the pull before "
-    "the gap opens, and it opens in a short time.",
+    claim="One number governs film and bodies, beta = eta v R^1.5/(E* h^2.5), pi/4 of the "
+    "elasticity parameter of Davis, Serayssol and Hinch (1986). Where it is small the "
+    "force is 6 pi eta R^2 v/h at once; where it is large the bodies follow the pull "
+    "before the gap opens, in a short time.",
     verdict="Met: pulls of the same beta are the same though every property differs; the largest "
-    "force falls from that of rigid bodies to 0.16 of it at beta = 10, as the "
-    "first program of this method has it within its error of half a per cent. Rigid bodies in "
-    "series with a spring have the beginning of it. The gap on the axis shrinks before it opens.",
-    choices="R = 5 mm, h = 1 um, 0.1 Pa.s, 10 um/s, from rest, flooded to 8 sqrt(R h). Davis "
-    "et al. treat an impact, whose curves could not be read; the mapping is exact.",
+    "force falls from that of rigid bodies to 0.16 of it at beta = 10, as a first program "
+    "has it to half a per cent. Rigid bodies in series with a spring have the beginning "
+    "of it. The gap on the axis shrinks before it opens.",
+    choices="R = 5 mm, h = 1 um, 0.1 Pa.s, 10 um/s, from rest, flooded to 8 sqrt(R h).",
     grid="24 to 48 rings, three meshes",
 )
 R, GAP, VISCOSITY, SPEED = 5e-3, 1e-6, 0.1, 1e-5

@@ -15,17 +15,15 @@ from contactkit.plot import gallery as plot
 PAGE = Page(
     name="sphere-adhesion",
     title="Adhesion of a sphere: JKR, DMT and what lies between",
-    claim="Pull-off of 3/2 pi w R of soft, large spheres (Johnson, Kendall and Roberts) and 2 pi "
-    "w R of stiff, small ones (Derjaguin, Muller and Toporov); between them Maugis' solution over "
-    "the parameter lambda, with the fits of Carpick, Ogletree and Salmeron (1999): pull-off -7/4 "
-    "+ (4.04 l^1.4 - 1)/(4 (4.04 l^1.4 + 1)) in pi w R, and a contact radius a/a0 = ((alpha + "
-    "sqrt(1 - L/Lc))/(1 + alpha))^(2/3).",
+    claim="Pull-off of 3/2 pi w R of soft, large spheres (JKR) and 2 pi w R of stiff, small "
+    "ones (DMT); between them Maugis' solution, with the fits of Carpick, Ogletree and "
+    "Salmeron (1999): pull-off -7/4 + (4.04 l^1.4 - 1)/(4 (4.04 l^1.4 + 1)) in pi w R, "
+    "contact radius a/a0 = ((alpha + sqrt(1 - L/Lc))/(1 + alpha))^(2/3).",
     verdict="Both limits are met, and the fit of the pull-off within 2 %. The form of the contact "
-    "radius, with alpha fitted to our curves, is good to half a per cent down to nine tenths of "
-    "the pull-off. Contactkit takes Maugis' solution itself.",
-    choices="Loads over pi w R, radii over (pi w R^2/K)^(1/3), K = 4 E*/3; radii of the contact, "
-    "without the ring around it in which the bodies attract. The coefficients of the fit could "
-    "not be read again.",
+    "radius, with alpha fitted to our curves, is good to half a per cent down to nine "
+    "tenths of the pull-off.",
+    choices="Loads over pi w R, radii over (pi w R^2/K)^(1/3), K = 4 E*/3, without the ring in "
+    "which the bodies attract. The coefficients of the fit could not be read again.",
     grid="60 values of lambda, 80 loads",
 )
 LAMBDAS = (0.1, 0.3, 1.0, 3.0)

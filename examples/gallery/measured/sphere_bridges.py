@@ -18,15 +18,14 @@ PAGE = Page(
     name="sphere-bridges",
     title="Liquid bridges between equal spheres, by three published fits",
     claim="Willett et al. (Langmuir 16, 2000, 9396), Mikami et al. (Chem. Eng. Sci. 53, 1998, "
-    "1927) and Lian et al. (J. Colloid Interface Sci. 161, 1993, 138) fit forces and distances "
-    "of rupture that they computed from the Young-Laplace equation; Willett's were confirmed by "
-    "measurements. Coefficients as in the programs Yade and LIGGGHTS; the papers were not read.",
-    verdict="The exact bridge lies on Willett's fit to 1 % on average where the fit can follow. It "
-    "does not at rupture: the force has a vertical tangent there, a polynomial in logarithms has "
-    "none. Mikami's fit is a coarser one, good to 6 % for liquids that wet well, and not for small "
-    "volumes. Distances of rupture agree to 0.5 % (Willett) and 5 % (Lian) at 0 degrees. At larger "
-    "angles both laws are up to 4 % too long, at 60 degrees 7 %: their factor 1 + theta/2 is a "
-    "fit, and bridges above some 30 degrees tilt before they fold.",
+    "1927) and Lian et al. (J. Colloid Interface Sci. 161, 1993, 138) fit forces and "
+    "rupture distances from the Young-Laplace equation. Coefficients as in Yade and "
+    "LIGGGHTS; the papers were not read.",
+    verdict="The exact bridge lies on Willett's fit to 1 % on average, not at rupture, where the "
+    "force has a vertical tangent. Mikami's fit is good to 6 % for liquids that wet well, "
+    "and not for small volumes. Rupture agrees to 0.5 % (Willett) and 5 % (Lian) at 0 "
+    "degrees; at larger angles both are up to 4 % too long, at 60 degrees 7 %: bridges "
+    "above some 30 degrees tilt before they fold.",
     grid="exact bridges at 98 gaps",
 )
 VOLUMES, ANGLES = (1e-4, 1e-3, 1e-2, 0.1), (0.0, 20.0, 40.0, 60.0)
