@@ -71,10 +71,10 @@ function fitTables(boxes) {
   const mark = (box) => box.classList.toggle("more", box.scrollLeft + box.clientWidth < box.scrollWidth - 4);
   const fitOne = (box) => {
     const table = box.querySelector("table");
-    table.classList.remove("stacked");
+    table.toggleAttribute("data-stacked", false); // no class: the theme styles tables without one
     const isWide = box.scrollWidth > box.clientWidth + 4;
     const isText = [...table.querySelectorAll("td")].some(long);
-    table.classList.toggle("stacked", isWide && isText && innerWidth < 720);
+    table.toggleAttribute("data-stacked", isWide && isText && innerWidth < 720);
     mark(box);
   };
   for (const box of boxes) {
@@ -85,6 +85,8 @@ function fitTables(boxes) {
     box.addEventListener("scroll", () => mark(box), { passive: true });
   }
   addEventListener("resize", () => boxes.forEach(fitOne));
+  // What is folded has no width until it opens.
+  document.addEventListener("toggle", () => boxes.forEach(fitOne), true);
 }
 
 const all = (name) => [...document.querySelectorAll(name)];
