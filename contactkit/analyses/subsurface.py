@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
@@ -18,7 +18,7 @@ from ..contact.effects.base import (
 )
 from ..contact.effects.friction import FrictionTraction
 from ..contact.effects.partial_slip import PartialSlip
-from ..contact.effects.stress import StressPart, SubsurfaceStress
+from ..contact.effects.stress import StressPart, SubsurfaceStress, stress_field
 from ..contact.result import ContactResult
 from ..elasticity.stress.maxima import Maximum
 from ..elasticity.stress.measures import max_principal_stress, sqrt_j2, tresca, von_mises
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["MEASURES", "MaximumPlane", "maximum_planes", "stress_below"]
+__all__ = ["LABELS", "MEASURES", "MaximumPlane", "maximum_planes", "planes_below", "stress_below"]
 
 MeasureName = Literal["von_mises", "sqrt_j2", "tension", "tresca", "sigma_xz"]
 
@@ -49,6 +49,15 @@ MEASURES: Mapping[str, Callable[[Map], Map]] = {
     "sigma_xz": _sigma_xz,
 }
 """Measures of a stress (6, ...), by the names of `StressPart.maxima`."""
+
+LABELS = {
+    "von_mises": "von Mises stress",
+    "sqrt_j2": "square root of J2",
+    "tension": "largest principal stress",
+    "tresca": "maximum shear stress",
+    "sigma_xz": "shear stress |xz|",
+}
+"""Label of each measure."""
 
 
 class MaximumPlane(NamedTuple):
@@ -108,6 +117,38 @@ def stress_below(
     0.96
     """
     effect = effect if effect is not None else SubsurfaceStress()
+    return effect.observe(_contact_of(result, effect, friction))
+
+
+def planes_below(
+    result: ContactResult, places: Sequence[tuple[float, str]], effect: SubsurfaceStress
+) -> Iterator[Map]:
+    """Stress (6, ny, nx) [Pa] on planes of a solved contact, one after the other, none kept.
+
+    Parameters
+    ----------
+    result : ContactResult
+        The solved contact.
+    places : sequence of (float, str)
+        Depth [m] and side of each plane, growing: "+" below a depth, "-" above.
+    effect : SubsurfaceStress
+        Its reading and window; its depths are not used.
+
+    Raises
+    ------
+    PlanError
+        As `stress_below` does.
+    """
+    plain = evolve(effect, depths=None, coefficients=())
+    field = stress_field(plain, _contact_of(result, plain, None))
+    for plane in field.planes([z for z, _ in places], [side for _, side in places]):
+        yield plane.stress
+
+
+def _contact_of(
+    result: ContactResult, effect: SubsurfaceStress, friction: FrictionTraction | None
+) -> SolvedContact:
+    """Contact of a result as effects see it, with another choice of stresses and friction."""
     scene = _scene_of(result, effect, friction)
     plan, attraction = result.plan, scene.effect(Attraction)
     contact = SolvedContact(
@@ -125,7 +166,7 @@ def stress_below(
     if law is not None:
         part = result.of(type(law)) if friction is None else friction.observe(contact)
         contact = contact._replace(tractions=law.tractions(part))
-    return effect.observe(contact)
+    return contact
 
 
 def _scene_of(

@@ -19,7 +19,7 @@ from typing import Any
 from attrs import asdict, define, field, frozen
 
 from ..errors import DescriptionError
-from ..files.scenes import write_whole
+from ..files.scenes import write_text
 from ..reading.archives import checked_archive
 from ..reading.texts import from_json, read_text
 from ..units import quantity_text
@@ -363,5 +363,4 @@ def _write_record(path: Path, record: Record) -> None:
         "files": {name: [one.command, one.sha256] for name, one in sorted(record.files.items())},
         "printed": {name: asdict(one) for name, one in record.printed.items()},
     }
-    with write_whole(path / RECORD) as temporary:
-        temporary.write_text(json.dumps(table, indent=1) + "\n", encoding="utf-8")
+    write_text(path / RECORD, json.dumps(table, indent=1) + "\n")

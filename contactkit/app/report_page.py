@@ -12,7 +12,6 @@ from ..export.html import numbers_table, table
 from ..export.pages import bullets, figure, listing, page, section
 from ..extras import missing_extra
 from ..files.results import AnyResult, load_result
-from ..files.scenes import write_whole
 from ..scene.answer import headline
 from .output import RECORD, Printed, Record, read_record
 from .run import cost_text, draw_result
@@ -20,7 +19,7 @@ from .run import cost_text, draw_result
 if TYPE_CHECKING:
     from ..validity import ValidityNumber
 
-__all__ = ["PAGE", "folder_page", "report_page", "result_page", "validity_rows", "write_page"]
+__all__ = ["PAGE", "folder_page", "report_page", "result_page", "validity_rows"]
 
 PAGE = "report.html"
 """Name of the page in an output folder."""
@@ -51,13 +50,6 @@ def report_page(source: Path) -> str:
         "be a result file, or a folder that contactkit run or study wrote to",
         hint=f"it has neither {RECORD} nor {_RESULT}",
     )
-
-
-def write_page(text: str, path: Path) -> Path:
-    """Write a page, whole or not at all."""
-    with write_whole(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-    return path
 
 
 def result_page(path: Path) -> str:

@@ -273,9 +273,14 @@ def _draw(
     from ..plot import cost as cost_plot
     from ..plot import style as plot
 
-    made, axes = plot.figure(1, 2 if grids is None else 3, size=(15.0 if grids else 10.0, 4.6))
+    made, axes = plot.figure(1, 2, size=(10.0, 4.8))
+    if grids is not None:
+        panels = [["solvers", "grids"], ["effects", "effects"]]
+        ratios = {"height_ratios": (4.6, 0.8 + 0.35 * len(effects))}
+        made, drawn = plot.mosaic(panels, size=(10.0, 5.6 + 0.4 * len(effects)), **ratios)
+        axes = list(drawn.values())
     cost_plot.work_precision(solvers, axes[0], beside=False)
-    plot.title(axes[0], f"{name}: tolerance, by solver")
+    plot.title(axes[0], f"{name}: tolerance")
     if grids is not None:
         cost_plot.work_precision(grids, axes[1], beside=False)
         plot.title(axes[1], "grid")

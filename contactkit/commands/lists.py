@@ -41,7 +41,7 @@ def new(kind: str, out: Path | None, overwrite: bool) -> None:
     KIND is contact, separation or sliding: contactkit new separation --out my.toml.
     """
     from ..app.templates import template
-    from ..files.scenes import write_whole
+    from ..files.scenes import write_text
 
     text = template(kind)
     if out is None:
@@ -50,6 +50,5 @@ def new(kind: str, out: Path | None, overwrite: bool) -> None:
     from ..app.output import check_file
 
     check_file(out, ".toml", overwrite=overwrite)
-    with write_whole(out) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_text(out, text)
     print_files("written", [out])

@@ -23,9 +23,10 @@ def report(result: Path, out: Path | None, overwrite: bool) -> None:
     RESULT is a result file, or a folder that contactkit run, study or cost wrote to.
     """
     from ..app.output import check_file, enter
-    from ..app.report_page import PAGE, report_page, write_page
+    from ..app.report_page import PAGE, report_page
+    from ..files.scenes import write_text
 
     path = out or (result / PAGE if result.is_dir() else result.with_suffix(".html"))
     check_file(path, ".html", overwrite=overwrite)
-    say(str(write_page(report_page(result), path)))
+    say(str(write_text(path, report_page(result))))
     enter(path, "report")

@@ -56,9 +56,10 @@ def run_job(
 
         folder.keep(opened.name, report.text, report.scalars, **described(opened, report))
         if page:
-            from ..app.report_page import PAGE, folder_page, write_page
+            from ..app.report_page import PAGE, folder_page
+            from ..files.scenes import write_text
 
-            path = write_page(folder_page(folder.path, folder.record), folder.path / PAGE)
+            path = write_text(folder.path / PAGE, folder_page(folder.path, folder.record))
             if not job.as_json:
                 print_files("written", [path])
 

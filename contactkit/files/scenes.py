@@ -46,6 +46,7 @@ __all__ = [
     "structure",
     "telling_lines",
     "unstructure",
+    "write_text",
     "write_whole",
 ]
 
@@ -198,9 +199,7 @@ def save_scene(scene: SeparationScene | SlidingScene | ContactScene, path: str |
 
     tables = _whole_tables(scene, Path(path).name)
     text = tomli_w.dumps(references_from(tables, Path(path)))
-    with write_whole(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-    return Path(path)
+    return write_text(path, text)
 
 
 def scene_text(scene: SeparationScene | SlidingScene | ContactScene, name: str) -> str:
@@ -261,6 +260,19 @@ def _first_difference(given: Any, found: Any, place: str) -> tuple[str, Any, Any
     else:
         return None if given == found else (place, given, found)
     return next(filter(None, (_first_difference(*pair) for pair in pairs)), None)
+
+
+def write_text(path: str | Path, text: str) -> Path:
+    """Write a text in UTF-8, whole or not at all; the path is returned.
+
+    Raises
+    ------
+    OSError
+        As `write_whole`.
+    """
+    with write_whole(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+    return Path(path)
 
 
 @contextmanager

@@ -7,7 +7,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import reduce
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import evolve, frozen
@@ -15,8 +15,7 @@ from attrs import evolve, frozen
 from ..accuracy import Accuracy
 from ..errors import ContactkitError
 from ..fmu.native.records import FilmTables, Table
-from ..fmu.native.tables import quintics
-from ..scene.scenes import SeparationScene
+from ..fmu.native.tables import Tabulate, quintics
 from ..studies.paths import changed
 from .fixed import SMALL, FixedTables
 from .scene import KernelScene, film_of
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-__all__ = ["Family", "family_of", "with_values"]
+__all__ = ["Family", "Nodes", "family_of", "tabulated", "with_values"]
 
 # Nodes of Chebyshev along each of one, two, three or more quantities. Of volume and radius of a
 # film between flats, and its contact angle: 1e-3 of the meniscus force, and 180 kB.
@@ -110,37 +109,51 @@ def _weights(nodes: Floats, place: float) -> Floats:
     )
 
 
-def with_values(scene: SeparationScene, values: Mapping[Slider, float]) -> SeparationScene:
+def with_values(scene: Any, values: Mapping[Slider, float]) -> Any:
     """Scene with values of sliders."""
     given = {path: value for slider, value in values.items() for path in slider.paths}
-    found: SeparationScene = changed(scene, None, given).scene
-    return found
+    return changed(scene, None, given).scene
 
 
-class _Nodes:
-    """Numbers of scenes that differ in what a family moves, all of one form."""
+class Nodes:
+    """Numbers of scenes that differ in what a family moves, all of one form.
+
+    Parameters
+    ----------
+    scene : object
+        The scene as it is.
+    like : FilmTables
+        Its tables, whose form all have.
+    film : callable
+        Tables of such a scene, made by a `Tabulate`.
+    numbers : callable
+        Numbers of the kernel of such a scene and its tables.
+    more : callable
+        Numbers of such a scene that are interpolated besides.
+    """
 
     def __init__(
         self,
-        kernel: KernelScene,
-        accuracy: Accuracy,
-        rules: Rules,
-        span: tuple[float, float],
+        scene: Any,
+        like: FilmTables,
+        film: Callable[[Any, Tabulate], FilmTables],
+        numbers: Callable[[Any, FilmTables], list[float]],
+        more: Callable[[Any], list[float]],
     ) -> None:
-        self._kernel, self._accuracy, self._rules, self._span = kernel, accuracy, rules, span
-        self.tables = FixedTables(kernel.film.tables)
+        self.scene, self.tables = scene, FixedTables(like)
+        self._film, self._numbers, self._more = film, numbers, more
 
     def places(self) -> _Places:
         """Places of the columns of the tables."""
-        film = film_of(self._kernel.scene, self._accuracy, self.tables.begin())
-        return _Places(self._kernel, film.tables)
+        film = self._film(self.scene, self.tables.begin())
+        return _Places(lambda tables: self._numbers(self.scene, tables), film)
 
-    def numbers(self, scene: SeparationScene) -> Floats:
+    def numbers(self, scene: Any) -> Floats:
+        """Numbers of the kernel, then the others."""
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            film = film_of(scene, self._accuracy, self.tables.begin())
-        logs = logs_of(scene, self._accuracy, self._rules, self._span)
-        return np.array([*self._kernel.numbers(film.tables), *logs])
+            film = self._film(scene, self.tables.begin())
+            return np.array([*self._numbers(scene, film), *self._more(scene)])
 
 
 def family_of(
@@ -152,9 +165,23 @@ def family_of(
     progress: Progress | None = None,
 ) -> Family | str:
     """Tabulate over a grid of all sliders; the reason if a scene of the grid has no such tables."""
-    made = _Nodes(kernel, accuracy, rules, span)
+    made = Nodes(
+        kernel.scene,
+        kernel.film.tables,
+        lambda scene, make: film_of(scene, accuracy, make).tables,
+        lambda _, tables: kernel.numbers(tables),
+        lambda scene: logs_of(scene, accuracy, rules, span),
+    )
+    return tabulated(made, sliders, span[1], progress)
+
+
+def tabulated(
+    made: Nodes, sliders: tuple[Slider, ...], highest: float, progress: Progress | None = None
+) -> Family | str:
+    """Tabulate over a grid; its error is that of forces up to the highest gap [m]."""
+    scene = made.scene
     sliders = tuple(sorted(sliders, key=lambda slider: slider.scale == "angle"))  # see Family.at
-    sliders = _with_answers(made, kernel.scene, sliders)
+    sliders = _with_answers(made, scene, sliders)
     if not sliders:
         return "no other geometry near it has an answer"
     most = _NODES.get(len(sliders), _FEWEST)
@@ -162,13 +189,13 @@ def family_of(
     grid = list(itertools.product(*nodes))
     found: list[Floats] = []
     try:
-        base = made.numbers(kernel.scene)
+        base = made.numbers(scene)
         for i, place in enumerate(grid):
-            found.append(made.numbers(_scene_at(kernel.scene, sliders, place)))
+            found.append(made.numbers(_scene_at(scene, sliders, place)))
             if progress is not None:
                 progress((i + 1) / (len(grid) + _TRIALS))
         trials = [_trial(sliders, i) for i in range(_TRIALS)]
-        right = [made.numbers(_scene_at(kernel.scene, sliders, place)) for place in trials]
+        right = [made.numbers(_scene_at(scene, sliders, place)) for place in trials]
     except ContactkitError as reason:
         return str(reason)
     if any(len(one) != len(base) for one in (*found, *right)):
@@ -177,7 +204,7 @@ def family_of(
     count = len(places.other)
     family = _interpolated(sliders, nodes, base, np.array(found), count)
     error = made.tables.error + max(
-        _difference(family, places, trial, exact, span[1])
+        _difference(family, places, trial, exact, highest)
         for trial, exact in zip(trials, right, strict=True)
     )
     if not error <= _WORST:
@@ -185,9 +212,7 @@ def family_of(
     return evolve(family, error=error)
 
 
-def _with_answers(
-    made: _Nodes, scene: SeparationScene, sliders: tuple[Slider, ...]
-) -> tuple[Slider, ...]:
+def _with_answers(made: Nodes, scene: Any, sliders: tuple[Slider, ...]) -> tuple[Slider, ...]:
     """Sliders whose ends, and the corners of whose ranges together, have the scene's tables."""
     size = len(made.numbers(scene))
 
@@ -234,9 +259,7 @@ def _chebyshev(slider: Slider, count: int) -> Floats:
     return 0.5 * (low + high) - 0.5 * (high - low) * places
 
 
-def _scene_at(
-    scene: SeparationScene, sliders: Sequence[Slider], place: Sequence[float]
-) -> SeparationScene:
+def _scene_at(scene: Any, sliders: Sequence[Slider], place: Sequence[float]) -> Any:
     values = {slider: slider.value_at(float(x)) for slider, x in zip(sliders, place, strict=True)}
     return with_values(scene, values)
 
@@ -277,8 +300,8 @@ def _interpolated(
 class _Places:
     """Where in the numbers of the kernel the columns of its tables are."""
 
-    def __init__(self, kernel: KernelScene, tables: FilmTables) -> None:
-        marked, plain = kernel.numbers(_marked(tables)), kernel.numbers(tables)
+    def __init__(self, numbers: Callable[[FilmTables], list[float]], tables: FilmTables) -> None:
+        marked, plain = numbers(_marked(tables)), numbers(tables)
         slopes = [a != b for a, b in zip(marked, plain, strict=True)]
         runs, at = list[tuple[int, int]](), 0
         for differs, run in itertools.groupby(slopes):

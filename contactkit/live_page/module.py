@@ -24,16 +24,18 @@ _FLAGS = (
 
 def page_sources() -> dict[str, bytes]:
     """Sources of the module by file name: those of a native FMU, with the calls of a page."""
-    own = Path(__file__).with_name("kernel") / "page.c"
+    folder = Path(__file__).with_name("kernel")
+    own = {path.name: path.read_bytes() for path in sorted(folder.glob("*.[ch]"))}
     shared = {name: text for name, text in kernel_sources().items() if name != "fmi2.c"}
-    return {**shared, own.name: own.read_bytes()}
+    return {**shared, **own}
 
 
 @cache
 def kernel_module() -> bytes:
     """Compile the kernel.
 
-    It imports nothing: a page, or any runtime, calls its ``ck_page_...`` functions.
+    It imports nothing: a page, or any runtime, calls its ``ck_page_...`` and ``ck_valve_...``
+    functions.
 
     Raises
     ------

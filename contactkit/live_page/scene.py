@@ -55,8 +55,8 @@ def check_scene(scene: object) -> SeparationScene:
     kind = type(scene).__name__
     if not isinstance(scene, SeparationScene):
         raise PlanError(
-            f"a live page holds a separation, and this is a {kind}; its result as a page: "
-            "contactkit run SCENE --out FOLDER, then contactkit report FOLDER"
+            f"a live page holds a separation or a contact, and this is a {kind}; its result as a "
+            "page: contactkit run SCENE --out FOLDER, then contactkit report FOLDER"
         )
     loading = scene.loading
     if scene.effect(ElasticBodies) is not None:

@@ -18,9 +18,9 @@ from ..separation.effects.viscous import ShearLimit, TensionLimit
 from ..units import readable_unit
 from .scene import KernelScene
 
-__all__ = ["Slider", "family_sliders", "sliders_of"]
+__all__ = ["Slider", "family_sliders", "sliders_of", "with_unit"]
 
-By = Literal["pull", "rise", "speed", "kernel", "liquid", "temperature", "family"]
+By = Literal["pull", "rise", "speed", "kernel", "liquid", "temperature", "family", "device"]
 Scale = Literal["log", "linear", "angle", "kelvin"]
 """How a quantity is spread: by its logarithm, evenly, or as ln(-ln x), a humidity by that of its
 Kelvin radius; angles evenly, and what they move is no power of them."""
@@ -32,8 +32,8 @@ class Slider:
 
     `paths` are the fields that take its value. `by` is the way to the kernel: as the pull, its rise
     time or an imposed speed, as a variable (`port`, `reference`), as a property of the liquid,
-    through the temperature, or through the tables over a grid. Shown is (value - shift)/factor, in
-    `unit`.
+    through the temperature, through the tables over a grid, or as the view of a device does. Shown
+    is (value - shift)/factor, in `unit`.
     """
 
     name: str
@@ -103,7 +103,7 @@ def sliders_of(kernel: KernelScene, table: LiquidTable | None) -> tuple[Slider, 
     paths = {path for slider in found for path in slider.paths}
     if "loading.final_gap" in paths and not isinstance(scene.loading, ImposedForce):
         found = [evolve(s, label="largest gap") if s.name == "final_gap" else s for s in found]
-    return tuple(_with_unit(slider, _UNITS.get(slider.name, "")) for slider in found)
+    return tuple(with_unit(slider, _UNITS.get(slider.name, "")) for slider in found)
 
 
 _UNITS = {
@@ -239,7 +239,7 @@ def family_sliders(kernel: KernelScene, table: LiquidTable | None) -> tuple[Slid
     free = {name for name, (_, port) in _LIQUID.items() if kernel.start.get(port)}
     if table is not None and not needed <= free:
         found.append(_temperature(scene, table, "family"))
-    return tuple(_with_unit(slider, _UNITS[slider.name]) for slider in found)
+    return tuple(with_unit(slider, _UNITS[slider.name]) for slider in found)
 
 
 def _scaled(name: str, paths: tuple[str, ...], label: str, value: float, span: float) -> Slider:
@@ -299,7 +299,7 @@ def _of_angles(scene: SeparationScene) -> Iterator[Slider]:
             )
 
 
-def _with_unit(slider: Slider, si: str) -> Slider:
+def with_unit(slider: Slider, si: str) -> Slider:
     """Slider with the unit in which it reads best."""
     if si == "K":
         return evolve(slider, unit="°C", shift=273.15)

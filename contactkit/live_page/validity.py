@@ -207,7 +207,7 @@ def worst_of(rules: Rules, logs: Sequence[float], index: int, path: Any) -> floa
     at = count * (1 + sum(1 + one.is_bounded for one in rules.rules[:index]))
     worst = 0.0 if rule.worst == "largest" else math.inf
     for gap, speed in path:
-        if rule.opening_only and speed <= 0.0:
+        if (rule.opening_only and speed <= 0.0) or (rule.speed_power < 0 and speed == 0.0):
             continue
         value = _between(logs, at, count, gap)
         value *= abs(speed) ** rule.speed_power

@@ -23,12 +23,12 @@ def in_print(unit: str) -> str:
 
     Examples
     --------
-    >>> in_print("um2"), in_print("N.s"), in_print("deg"), in_print("degC"), in_print("us")
-    ('µm²', 'N·s', '°', '°C', 'µs')
+    >>> in_print("um2"), in_print("N.s"), in_print("deg"), in_print("degC"), in_print("mohm")
+    ('µm²', 'N·s', '°', '°C', 'mΩ')
     """
     if unit.startswith("deg"):
         return "°" + unit.removeprefix("deg")
-    known = unit.translate(_PRINT)
+    known = unit.translate(_PRINT).replace("ohm", "Ω")
     return "µ" + known[1:] if known.startswith("u") else known
 
 

@@ -18,6 +18,7 @@ from .style import Axes, ListedColormap, Patch, Rectangle, figure, legend
 __all__ = [
     "contact_spots",
     "pressure",
+    "pressure_close_up",
     "section",
     "stack_section",
 ]
@@ -40,6 +41,38 @@ def pressure(result: ContactResult, ax: Axes | None = None) -> Axes:
     place(ax, unit)
     bar = ax.figure.colorbar(image, ax=ax, shrink=0.85)
     bar.set_label(f"pressure [{name}]")
+    return ax
+
+
+def pressure_close_up(result: ContactResult, ax: Axes | None = None) -> Axes:
+    """Draw the pressure in a part of the window around its maximum, where spots can be seen.
+
+    A quarter of each side, 9 pixels at least. A window that repeats is rolled.
+    """
+    ax = ax if ax is not None else figure()[1]
+    acting = result.contact | (result.pressure != 0.0)
+    values = np.where(acting, result.pressure, np.nan)
+    ends: list[float] = []
+    peak = np.unravel_index(int(np.argmax(result.pressure)), values.shape)
+    for axis, (n, pixel) in enumerate(zip(values.shape, result.plan.grid.pixel_size, strict=True)):
+        half, centre = min(max(n // 8, 4), (n - 1) // 2), int(peak[axis])
+        if result.plan.grid.periodic:
+            values, centre = np.roll(values, n // 2 - centre, axis=axis), n // 2
+        first, last = max(centre - half, 0), min(centre + half + 1, n)
+        values = values[first:last] if axis == 0 else values[:, first:last]
+        ends = [(first - centre - 0.5) * pixel, (last - centre - 0.5) * pixel, *ends]
+    length, unit = axis_unit(max(ends[1] - ends[0], ends[3] - ends[2]), "m")
+    factor, name = axis_unit(float(np.abs(result.pressure).max()), "Pa")
+    image = ax.imshow(
+        np.ma.masked_invalid(values / factor),
+        origin="lower",
+        extent=(ends[0] / length, ends[1] / length, ends[2] / length, ends[3] / length),
+        cmap="viridis",
+        interpolation="nearest",
+    )
+    place(ax, unit)
+    ax.set_xlabel(f"x from the maximum pressure [{unit}]")
+    ax.figure.colorbar(image, ax=ax, shrink=0.85).set_label(f"pressure [{name}]")
     return ax
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from itertools import cycle
 
@@ -15,34 +16,56 @@ _LEFT = "not tried"  # how a point begins that was left out
 
 
 def closures(found: WorkPrecision, ax: Axes, bridges: Sequence[str]) -> Axes:
-    """Draw error against seconds per gap: a colour for each closure, a marker for each bridge.
+    """Draw seconds of each closure, a row for each bridge, with the error written beside it.
 
-    Full signs stand for whole curves or whole answers, open ones for one gap at a time.
+    Full signs stand for whole curves or whole answers, open ones for one gap at a time. Errors
+    below that of the reference read "exact": they cannot be evaluated.
     """
-    colors = dict(zip(dict.fromkeys(p.method for p in found.points), _COLORS, strict=False))
+    methods = list(dict.fromkeys(p.method for p in found.points))
+    gap = 0.8 / len(methods)
     for p in found.points:
-        name = next(b for b in bridges if p.label.startswith(b))
-        full = "none" if "one gap" in p.label or "first" in p.label else colors[p.method]
-        ax.plot(
-            p.seconds,
-            max(p.error, 1e-16),
-            "osD^vP*X"[bridges.index(name)],
-            ms=6.5,
-            color=colors[p.method],
-            mfc=full,
-            ls="none",
+        if "first" in p.label:
+            continue
+        row = next(i for i, b in enumerate(bridges) if p.label.startswith(b))
+        colour, _, mark = SERIES[methods.index(p.method)]
+        y = row + gap * (methods.index(p.method) - 0.5 * (len(methods) - 1))
+        fill = "none" if "one gap" in p.label else colour
+        ax.plot(p.seconds, y, mark, ms=6.0, color=colour, mfc=fill, ls="none")
+        ax.annotate(
+            _error_text(p.error, found.floor),
+            (p.seconds, y),
+            (6.0, 0.0),
+            textcoords="offset points",
+            va="center",
+            fontsize=8,
+            color=colour,
         )
-    for method, color in colors.items():
-        ax.plot([], [], "-", lw=5, color=color, label=method)
-    for name, marker in zip(bridges, "osD^vP*X", strict=False):
-        ax.plot([], [], marker, color="0.3", ls="none", label=name)
-    ax.plot([], [], "o", color="0.3", mfc="none", ls="none", label="open: one gap, or first time")
-    low = 0.1 * min([found.floor, *(p.error for p in found.points if p.error > 0.0)])
-    ax.axhspan(max(low, 1e-16), found.floor, color="0.9", label="error of the reference")
+    for method, (colour, _, mark) in zip(methods, SERIES, strict=False):
+        ax.plot([], [], mark, color=colour, ls="none", label=method)
+    if any("one gap" in p.label for p in found.points):
+        ax.plot([], [], "o", color="0.3", mfc="none", ls="none", label="open: one gap at a time")
     each = "gap" if any("gap" in p.label for p in found.points) else "bridge"
-    ax.set(xscale="log", yscale="log", xlabel=f"seconds per {each}")
-    ax.set_ylabel(f"relative error of the {found.quantity}")
+    ax.set(xscale="log", ylim=(len(bridges) - 0.5, -0.5))
+    ax.set_xlabel(f"seconds per {each}; beside them: error of the {found.quantity}", fontsize=9)
+    ax.set_yticks(range(len(bridges)), [_in_powers(one) for one in bridges])
+    ax.margins(x=0.2)
+    ax.grid(visible=False, axis="y")
+    for i in range(1, len(bridges)):
+        ax.axhline(i - 0.5, color="0.85", lw=0.8)
     return ax
+
+
+def _error_text(error: float, floor: float) -> str:
+    """An error in words that need no axis."""
+    if error <= floor:
+        return "exact"
+    percent = 100.0 * error
+    return f"{percent:.2g} %" if percent < 99.5 else f"{percent:.0f} %"
+
+
+def _in_powers(text: str) -> str:
+    """A name with its powers set, and degrees as a sign."""
+    return re.sub(r"\b(\w)/(\w)\^(\d)", r"$\1/\2^\3$", text).replace(" deg", "°")
 
 
 def work_precision(

@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..analyses.subsurface import MEASURES, MeasureName
+from ..analyses.subsurface import LABELS, MEASURES, MeasureName
 from ..contact.effects.stress import SubsurfaceStress
 from ..contact.result import ContactResult
 from ..errors import DescriptionError, NotSimulatedError, nearest
 from .axis_units import axis_label, axis_unit, readable
 from .maps import extent, hide_holes, map_names, place
-from .stress import LABELS
 from .style import STYLE, mpl
 
 if TYPE_CHECKING:
@@ -36,17 +35,27 @@ class Explorer:
         Pixel of the point.
     plane : int
         Which plane of stress is shown; 0 for a map.
+    slider : matplotlib.widgets.Slider or None
+        Goes through the planes, and shows their depth; None for a map.
     """
 
-    def __init__(self, result: ContactResult, maps: Map, labels: list[str], unit: str) -> None:
+    def __init__(
+        self,
+        result: ContactResult,
+        maps: Map,
+        label: tuple[str, str],
+        depths: NDArray[np.float64] | None = None,
+    ) -> None:
         import matplotlib.pyplot as plt
         from matplotlib.widgets import Slider
 
-        self._maps, self._labels, self.plane = maps, labels, 0
-        (self._right, self._top), length = extent(result)[0][1::2], extent(result)[1]
+        self._maps, self._unit, self._depths, self.plane = maps, label[1], depths, 0
+        (self._right, self._top), self._length = extent(result)[0][1::2], extent(result)[1]
+        unit, length = axis_label(*label), self._length
         top = int(np.nanargmax(np.nan_to_num(maps[0])))
         self.row, self.column = (int(i) for i in np.unravel_index(top, maps[0].shape))
         self._is_held = False
+        self.slider: Any = None
         with mpl.rc_context(STYLE | {"figure.constrained_layout.use": False}):
             self.figure = plt.figure(figsize=(11.0, 5.4))
             self._map = self.figure.add_axes((0.07, 0.2, 0.42, 0.7))
@@ -55,11 +64,21 @@ class Explorer:
         low, high = float(np.nanmin(maps)), float(np.nanmax(maps))
         around = (0.0, self._right, 0.0, self._top)
         self._image = self._map.imshow(
-            maps[0], origin="lower", extent=around, vmin=low, vmax=high, interpolation="nearest"
+            maps[0],
+            origin="lower",
+            extent=around,
+            vmin=low,
+            vmax=high,
+            interpolation="nearest",
+            cmap="YlGnBu",
         )
         hide_holes(self._map, result)
+        _draw_edge(self._map, result, around)
         place(self._map, length)
-        self._cross = (self._map.axhline(color="w", lw=0.8), self._map.axvline(color="w", lw=0.8))
+        self._cross = (
+            self._map.axhline(color="0.5", lw=0.8),
+            self._map.axvline(color="0.5", lw=0.8),
+        )
         self.figure.colorbar(self._image, ax=self._map, shrink=0.85).set_label(unit)
         ny, nx = maps[0].shape
         (self._x, self._y) = (np.arange(nx) + 0.5) / nx, (np.arange(ny) + 0.5) / ny
@@ -69,8 +88,8 @@ class Explorer:
         for ax, name in ((self._across, "x"), (self._along, "y")):
             ax.set(xlabel=f"{name} [{length}]", ylabel=unit, ylim=(low - margin, high + margin))
         if len(maps) > 1:
-            bar = self.figure.add_axes((0.12, 0.05, 0.3, 0.04))
-            self.slider = Slider(bar, "plane", 0, len(maps) - 1, valinit=0, valstep=1)
+            bar = self.figure.add_axes((0.12, 0.05, 0.28, 0.04))
+            self.slider = Slider(bar, "depth", 0, len(maps) - 1, valinit=0, valstep=1)
             self.slider.on_changed(lambda chosen: self.show_plane(int(chosen)))
         self.figure.canvas.mpl_connect("motion_notify_event", self._moved)
         self.figure.canvas.mpl_connect("button_press_event", self._clicked)
@@ -106,9 +125,24 @@ class Explorer:
         self._cross[1].set_xdata([x, x])
         self._row_line.set_ydata(values[self.row])
         self._column_line.set_ydata(values[:, self.column])
-        here = f"{values[self.row, self.column]:.4g} at x = {x:.3g}, y = {y:.3g}"
-        self._map.set_title(f"{self._labels[self.plane]}: {here}", loc="left", fontsize=10)
+        number = f"{values[self.row, self.column]:.4g}"
+        here = number if self._unit in ("-", "") else f"{number} {self._unit}"
+        at = f"x = {x:.3g}, y = {y:.3g} {self._length}"
+        if self._depths is not None:
+            factor, name = axis_unit(float(self._depths[self.plane]), "m")
+            depth = f"{self._depths[self.plane] / factor:.3g} {name}"
+            at += f", {depth} deep"
+            if self.slider is not None:
+                self.slider.valtext.set_text(depth)
+        self._map.set_title(f"{here} at {at}", loc="left", fontsize=10)
         self.figure.canvas.draw_idle()
+
+
+def _draw_edge(ax: Any, result: ContactResult, around: tuple[float, float, float, float]) -> None:
+    """Draw the edge of the contact on a map, if it has one."""
+    if result.contact.any() and not result.contact.all():
+        look = {"colors": "#d55e00", "linewidths": 0.7}
+        ax.contour(result.contact, [0.5], origin="lower", extent=around, **look)
 
 
 def explore(
@@ -144,7 +178,7 @@ def explore(
         values = values[(-1,) * (values.ndim - 2)]
         factor, unit = readable(one.unit, values)
         label = one.label or name.replace("_", " ")
-        return Explorer(result, values[None] / factor, [label], axis_label(label, unit))
+        return Explorer(result, values[None] / factor, (label, unit))
     part = result.of(SubsurfaceStress)
     if part.planes is None:
         raise NotSimulatedError('only a section was kept: SubsurfaceStress(keep="planes")')
@@ -152,9 +186,4 @@ def explore(
         raise DescriptionError("explore.measure", measure, f"be one of {', '.join(MEASURES)}")
     stress = np.asarray(MEASURES[measure](part.planes))
     factor, unit = axis_unit(float(stress.max()), "Pa")
-    labels = [f"{z / f:.3g} {u} deep" for z, (f, u) in ((z, _length(z)) for z in part.depth)]
-    return Explorer(result, stress / factor, labels, axis_label(LABELS[measure], unit))
-
-
-def _length(depth: float) -> tuple[float, str]:
-    return axis_unit(float(depth), "m")
+    return Explorer(result, stress / factor, (LABELS[measure], unit), np.asarray(part.depth))

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.ndimage import distance_transform_edt
 
 from ..errors import DescriptionError
 from ..lubrication.reynolds.film import GridFilmState
 from .axis_units import axis_unit, scaled
-from .style import COLORS, Axes, figure, legend, save_animation
+from .style import COLORS, Axes, ListedColormap, Patch, figure, legend, save_animation
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -20,8 +21,10 @@ if TYPE_CHECKING:
 __all__ = ["animate", "instants", "liquid_fraction", "opening", "pressure"]
 
 BAR = 1e5  # [Pa], in which pressures are drawn
-_CAVITY = "#c1440e"
+_CAVITY, _CAVITY_FILL = "#c1440e", "#f6c9ae"
+_PRESSURES = "viridis"
 Mirror = tuple[bool, bool]
+Extent = tuple[float, float, float, float]
 
 
 def pressure(
@@ -31,7 +34,7 @@ def pressure(
     mirror: Mirror = (False, False),
     limits: tuple[float, float] | None = None,
 ) -> Axes:
-    """Draw the pressure above ambient; the edge of a cavity is a line, what is no film is white.
+    """Draw the pressure above ambient; a cavity is light red, what is no film is white.
 
     Parameters
     ----------
@@ -46,9 +49,10 @@ def pressure(
     """
     ax = ax if ax is not None else figure(size=(5.0, 4.2))[1]
     values = (state.pressure - state.film.ambient) / BAR
-    image = _map(state, values, ax, mirror, "viridis", limits)
+    image = _map(state, values, ax, mirror, _PRESSURES, limits)
     bar = ax.figure.colorbar(image, ax=ax, shrink=0.85)
     bar.set_label("pressure above ambient [bar]")
+    _name_cavity(ax, [state], loc="upper center", bbox_to_anchor=(0.5, -0.12))
     return ax
 
 
@@ -94,7 +98,7 @@ def instants(
     limits = _pressure_limits(states)
     for column, state in enumerate(states):
         values = (state.pressure - state.film.ambient) / BAR
-        above = _map(state, values, axes[0, column], mirror, "viridis", limits)
+        above = _map(state, values, axes[0, column], mirror, _PRESSURES, limits)
         below = _map(state, state.liquid_fraction, axes[1, column], mirror, "Blues", (0.0, 1.0))
         gap = float(state.gap[state.film.face.loaded].min())
         axes[0, column].set_title(_instant(state.time, gap), fontsize=9)
@@ -104,6 +108,7 @@ def instants(
                 axes[row, column].set_ylabel("")
     made.colorbar(above, ax=axes[0, :], shrink=0.9).set_label("pressure above ambient [bar]")
     made.colorbar(below, ax=axes[1, :], shrink=0.9).set_label("liquid fraction [-]")
+    _name_cavity(axes[0, 0], states, loc="lower left", bbox_to_anchor=(-0.2, 1.1))
     return made
 
 
@@ -185,7 +190,7 @@ def animate(
     """
     if len(states) < 2:
         raise DescriptionError("animate.states", len(states), "be two or more states")
-    made, axes = figure(1, 3, size=(10.5, 3.3))
+    made, axes = figure(1, 3, size=(10.8, 3.5))
     limits = _pressure_limits(states)
     time = [s.time * 1e3 for s in states]
     force = [copies * s.force for s in states]
@@ -195,11 +200,12 @@ def animate(
         for ax in axes:
             ax.clear()
         values = (state.pressure - state.film.ambient) / BAR
-        _map(state, values, axes[0], mirror, "viridis", limits)
+        _map(state, values, axes[0], mirror, _PRESSURES, limits)
         _map(state, state.liquid_fraction, axes[1], mirror, "Blues", (0.0, 1.0))
         gap = float(state.gap[state.film.face.loaded].min())
-        axes[0].set_title("pressure above ambient", fontsize=9)
-        axes[1].set_title(f"liquid fraction, {_instant(state.time, gap)}", fontsize=9)
+        axes[0].set_title("pressure", fontsize=9)
+        _name_cavity(axes[0], states, loc="upper center", bbox_to_anchor=(0.5, -0.16))
+        axes[1].set_title(f"liquid, {_instant(state.time, gap)}", fontsize=9)
         axes[2].plot(time, force, color="0.85")
         axes[2].plot(time[: index + 1], force[: index + 1], color=COLORS["viscous"])
         axes[2].plot(time[index], force[index], "o", color=COLORS["viscous"], ms=4)
@@ -208,8 +214,9 @@ def animate(
 
     shown = draw(0)
     scales = [ax.images[0] for ax in axes[:2]]
-    for ax, image, label in zip(axes, scales, ("[bar]", "[-]"), strict=False):
-        made.colorbar(image, ax=ax, shrink=0.8).set_label(label)
+    labels = ("pressure above ambient [bar]", "liquid fraction [-]")
+    for ax, image, label in zip(axes, scales, labels, strict=False):
+        made.colorbar(image, ax=ax, shrink=0.8).set_label(label, fontsize=9)
     return save_animation(made, path, draw, len(states), rate, first=shown)
 
 
@@ -238,8 +245,6 @@ def _map(
 ) -> Any:
     """Draw a map of the film on an axis, with the edge of its cavity."""
     face = state.film.face
-    shown = _unfold(np.ma.masked_array(values, ~face.loaded), mirror)
-    void = _unfold((face.loaded & (state.liquid_fraction < 1.0)) * 1.0, mirror)
     (dy, dx), (y0, x0) = face.pixel_size, face.origin
     ny, nx = face.shape
     right, top = x0 + (nx - 0.5) * dx, y0 + (ny - 0.5) * dy
@@ -248,20 +253,47 @@ def _map(
     factor, unit = axis_unit(max(right - left, top - bottom), "m")
     extent = (left / factor, right / factor, bottom / factor, top / factor)
     low, high = limits if limits is not None else (None, None)
-    image = ax.imshow(
-        shown,
-        origin="lower",
-        extent=extent,
-        cmap=colours,
-        vmin=low,
-        vmax=high,
-        interpolation="nearest",
-    )
+    look: dict[str, Any] = {"origin": "lower", "extent": extent, "interpolation": "nearest"}
+    shown = _unfold(np.ma.masked_array(values, ~face.loaded), mirror)
+    image = ax.imshow(shown, cmap=colours, vmin=low, vmax=high, **look)
+    void = _unfold(face.loaded & (state.liquid_fraction < 1.0), mirror)
+    if colours == _PRESSURES and void.any():
+        flat = np.ma.masked_where(~void, np.zeros(void.shape))
+        ax.imshow(flat, cmap=ListedColormap([_CAVITY_FILL]), **look)
     if 0.0 < void.mean() < 1.0 and min(void.shape) > 1:
-        ax.contour(void, levels=[0.5], colors=_CAVITY, linewidths=1.0, extent=extent)
+        at_cells: dict[str, Any] = {"origin": "lower", "extent": extent}
+        ax.contour(void * 1.0, levels=[0.5], colors=_CAVITY, linewidths=1.0, **at_cells)
+    around = distance_transform_edt(~face.loaded, return_distances=False, return_indices=True)
+    beyond = _unfold(np.where(face.level > -max(dx, dy), values[tuple(around)], np.nan), mirror)
+    low, high = image.get_clim()
+    ax.imshow(beyond, cmap=colours, vmin=low, vmax=high, zorder=-1.0, **look)
+    _round_off(ax, state, mirror, extent)
     ax.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", aspect="equal")
     ax.grid(visible=False)
     return image
+
+
+def _round_off(ax: Axes, state: GridFilmState, mirror: Mirror, extent: Extent) -> None:
+    """Cover what lies beyond the edge of the film: the cells that it cuts are drawn cut."""
+    face = state.film.face
+    level = _unfold(np.where(face.loaded, np.abs(face.level), face.level), mirror)
+    level = np.pad(np.asarray(level), 1, mode="edge")  # contours end at the centres of cells
+    left, right, bottom, top = extent
+    dx, dy = (right - left) / (level.shape[1] - 2), (top - bottom) / (level.shape[0] - 2)
+    extent = (left - dx, right + dx, bottom - dy, top + dy)
+    if min(level.shape) > 1 and level.min() < 0.0 < level.max():
+        at_cells: dict[str, Any] = {"origin": "lower", "extent": extent}
+        ax.contourf(level, levels=[float(level.min()) - 1.0, 0.0], colors="w", **at_cells)
+        ax.contour(level, levels=[0.0], colors="0.4", linewidths=0.8, **at_cells)
+        ax.set(xlim=(left, right), ylim=(bottom, top))
+
+
+def _name_cavity(ax: Axes, states: Sequence[GridFilmState], **more: Any) -> None:
+    """Legend with the colour of the cavity and its pressure, if any of the states has one."""
+    if any(one.cavity_area > 0.0 for one in states):
+        drop = states[0].film.drop / BAR
+        named = [Patch(color=_CAVITY_FILL, label=f"cavity, at {-drop:.3g} bar")]
+        legend(ax, **({"handles": named, "fontsize": 8} | more))
 
 
 def _unfold(values: Any, mirror: Mirror) -> Any:

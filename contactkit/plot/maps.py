@@ -9,7 +9,7 @@ import numpy as np
 from ..contact.result import ContactResult
 from ..errors import DescriptionError, nearest
 from .axis_units import axis_label, axis_unit, readable
-from .style import Axes, ListedColormap, figure
+from .style import Axes, ListedColormap, Patch, figure, legend
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["extent", "hide_holes", "map_names", "place", "value_map"]
 
 _HOLES = "#b5b5ae"
+_CONTACT = "#d55e00"
 
 
 def extent(result: ContactResult) -> tuple[tuple[float, float, float, float], str]:
@@ -46,6 +47,20 @@ def place(ax: Axes, unit: str) -> None:
     ax.grid(visible=False)
 
 
+def _mark_contact(ax: Axes, result: ContactResult) -> None:
+    """Draw the pixels in contact in a colour of their own, named below the panel."""
+    touching = np.ma.masked_where(~result.contact, np.zeros(result.contact.shape))
+    ax.imshow(
+        touching,
+        origin="lower",
+        extent=extent(result)[0],
+        interpolation="nearest",
+        cmap=ListedColormap([_CONTACT]),
+    )
+    names = [Patch(color=_CONTACT, label="contact")]
+    legend(ax, handles=names, loc="upper center", bbox_to_anchor=(0.5, -0.14))
+
+
 def map_names(result: ContactResult) -> tuple[str, ...]:
     """Names of the maps of a result, those of its effects among them."""
     known = result.contents().quantities.items()
@@ -56,6 +71,8 @@ def value_map(
     result: ContactResult, name: str, ax: Axes | None = None, at: tuple[int, ...] = ()
 ) -> Axes:
     """Draw a map of a contact, or of one of its effects, with a colour bar.
+
+    In that of the gap the contact has a colour of its own.
 
     Parameters
     ----------
@@ -94,6 +111,8 @@ def value_map(
     )
     hide_holes(ax, result)
     place(ax, unit)
+    if name == "gap" and result.contact.any():  # otherwise as dark as what nearly touches
+        _mark_contact(ax, result)
     bar = ax.figure.colorbar(image, ax=ax, shrink=0.85)
     bar.set_label(axis_label(one.label or name.replace("_", " "), shown))
     return ax

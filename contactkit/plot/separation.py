@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from ..errors import NotSimulatedError
+from ..errors import DescriptionError, NotSimulatedError
 from ..scene.column import Column
 from ..separation.columns import COLUMNS
 from ..separation.effects.base import LIMIT, effects_of
 from ..separation.results import SeparationResult
 from ..separation.sliding.result import SlidingResult
 from .axis_units import axis_label, readable, scaled
-from .style import COLORS, Axes, figure, legend, plain_log
+from .style import COLORS, Axes, figure, legend, plain_log, prefixed_log
 
 __all__ = ["cycles", "forces", "motion", "over_scales", "slide"]
+
+_INSTANT = 0.05  # of the run: an earlier peak is a line on the frame of a linear axis
 
 
 def _lines(
@@ -57,13 +60,28 @@ def motion(result: SeparationResult, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
-    """Draw the forces over the gap, and hatch where a limit of the liquid acts.
+def forces(result: SeparationResult, ax: Axes | None = None, *, over: str = "") -> Axes:
+    """Draw the forces, over time where a limit of the liquid acts on a body that is accelerated.
+
+    Such a film yields before its gap has changed, which has no width over the gap. All else is
+    drawn over the gap. A bar at the bottom lasts as long as the limit acts, and a dashed line
+    marks the release.
+
+    Parameters
+    ----------
+    result : SeparationResult
+        What was run.
+    ax : Axes, optional
+        Where to draw.
+    over : {"gap", "time"}, optional
+        What to draw them over; as said above if not given.
 
     Raises
     ------
     NotSimulatedError
         If the run has no force: with only a time imposed a viscous film has but its impulse.
+    DescriptionError
+        If they are to be drawn over anything else.
     """
     drawn = [
         column
@@ -73,34 +91,66 @@ def forces(result: SeparationResult, ax: Axes | None = None) -> Axes:
     ]
     if not drawn:
         result["pull"]  # raises, with the reason
+    if over not in ("", "gap", "time"):
+        raise DescriptionError("forces.over", over, "be gap or time")
     pull = [COLUMNS["pull"]] if "pull" in result.columns else []
     ax = ax if ax is not None else figure()[1]
     shown = [one for one in drawn if one.name != "newtonian_force"]
-    factor, length = _lines(ax, result, drawn + pull, "gap", shown + pull)
-    if LIMIT.name in result.columns and (acts := result[LIMIT.name] > 1.0).any():
-        ax.fill_between(
-            result.gap / length,
-            0,
-            1,
-            where=acts,
-            transform=ax.get_xaxis_transform(),
-            facecolor="none",
-            edgecolor="0.75",
-            hatch="////",
-            lw=0.5,  # a frame: the hatch alone does not show in the legend
-            zorder=0.0,
-            label="limit of the liquid acts",
-        )
-    ax.set_xscale("log")
-    curves = [result[one.name] / factor for one in shown]
-    pulls = [result[one.name] / factor for one in pull]
-    top = max([0.0, *(float(curve.max()) for curve in (*curves, *pulls))])
-    bottom = min([0.0, *(float(curve.min()) for curve in curves)])
+    acts = result[LIMIT.name] > 1.0 if LIMIT.name in result.columns else np.zeros(1, dtype=bool)
+    if not acts.any():
+        drawn = shown  # without a limit both are one line
+    along = over or ("time" if acts.any() and _is_accelerated(result) else "gap")
+    factor, unit = _lines(ax, result, drawn + pull, along, shown + pull)
+    x = result[along] / unit
+    curves = [result[one.name] / factor for one in shown + pull]
+    top = max([0.0, *(float(curve.max()) for curve in curves)])
+    bottom = min([0.0, *(float(curve.min()) for curve in curves[: len(shown)])])
     if top > bottom:  # otherwise there is no force
-        ax.set_ylim(1.1 * bottom, 1.15 * top)
-    plain_log(ax.xaxis)
-    legend(ax)
+        ax.set_ylim(min(1.1 * bottom, -0.04 * top if acts.any() else 0.0), 1.15 * top)
+    if along == "gap":
+        ax.set_xscale("log")
+        plain_log(ax.xaxis)
+    else:
+        _fit_time(ax, result, unit, curves[: len(shown)])
+    if acts.any():
+        _mark_limit(ax, x, acts)
+    legend(ax, **({"frameon": True, "edgecolor": "none"} if along == "time" else {}))
     return ax
+
+
+def _is_accelerated(result: SeparationResult) -> bool:
+    """Whether the speed is an outcome of the run."""
+    return "speed" in result.columns and float(np.ptp(result["speed"])) > 0.0
+
+
+def _fit_time(ax: Axes, result: SeparationResult, unit: float, films: Sequence[Any]) -> None:
+    """Fit the axis of time to the forces of the film: logarithmic if they peak in an instant."""
+    time = result["time"]
+    strongest = max((np.abs(curve) for curve in films), key=lambda size: float(size.max()))
+    peak, end = float(time[int(strongest.argmax())]), float(time[-1])
+    if 0.0 < peak < _INSTANT * end:
+        ax.set_xscale("log")
+        ax.set_xlim(0.01 * peak / unit, 1.5 * end / unit)
+        prefixed_log(ax.xaxis, unit, "s")
+        ax.set_xlabel("time")
+    if result.state is not None and result.state.n_releases:
+        release = result.state.release_time / unit
+        ax.axvline(release, color="0.5", lw=0.9, ls="--", label="release", zorder=0.5)
+
+
+def _mark_limit(ax: Axes, x: Any, acts: Any) -> None:
+    """Mark where a limit of the liquid acts by a bar along the bottom."""
+    ax.fill_between(
+        x,
+        0.0,
+        0.025,
+        where=acts,
+        transform=ax.get_xaxis_transform(),
+        color=COLORS["limit"],
+        lw=0.0,
+        zorder=0.0,
+        label="limit of the liquid acts",
+    )
 
 
 def over_scales(

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..analyses.subsurface import MEASURES, MeasureName
+from ..analyses.subsurface import LABELS, MEASURES, MeasureName
 from ..contact.effects.stress import StressPart, SubsurfaceStress
 from ..contact.result import ContactResult
 from ..errors import DescriptionError
 from .axis_units import axis_unit
-from .style import Axes, figure, mpl
+from .style import Axes, figure, legend, mpl
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -26,15 +26,9 @@ __all__ = ["Scale", "below", "depth_shown", "draw_section", "stress_section"]
 # Of the maximum: a figure reaches as deep as the stress is larger. Below a
 # sphere a tenth lies at four contact radii, a hundredth at thirteen: the contact would be a dot.
 _FAINT = 0.1
+_MARK = "#d55e00"
+_EQUAL = 1.005  # of the largest stress drawn: what exceeds it by less reads the same
 _NAMED = 0.07  # of the depth shown: a thinner layer has no room for a line of text
-LABELS = {
-    "von_mises": "von Mises stress",
-    "sqrt_j2": "square root of J2",
-    "tension": "largest principal stress",
-    "tresca": "maximum shear stress",
-    "sigma_xz": "shear stress |xz|",
-}
-"""Label of each measure."""
 
 
 class Scale(NamedTuple):
@@ -53,8 +47,10 @@ def below(
     *,
     depth: float | None = None,
 ) -> Axes:
-    """Draw contours of the stress under the row of maximum pressure, to scale, with its maximum.
+    """Draw contours of the stress in a section, to scale, with the maximum of it marked.
 
+    The section goes through the maximum of the measure if the planes were kept, otherwise through
+    the maximum pressure; then a larger stress elsewhere is named beside it.
     Stress jumps at interfaces (dashed); each layer is drawn on its own. Down to less than a few
     pixels the depth is stretched.
 
@@ -79,8 +75,7 @@ def below(
     part = result.of(SubsurfaceStress)
     if measure not in MEASURES:
         raise DescriptionError("stress.measure", measure, f"be one of {', '.join(MEASURES)}")
-    values = np.asarray(MEASURES[measure](part.section))
-    values, x = _around_maximum(result, part, values)
+    values, x, through = _section(result, part, measure)
     shown = depth_shown(result, measure) if depth is None else depth
     if not part.depth[0] < shown:
         expected = f"lie below the first plane, at {part.depth[0]:g} m"
@@ -94,30 +89,61 @@ def below(
     ax.set_ylim(shown / length, 0.0)
     if shown < 4.5 * pixel:  # a few pixels: stretched, as nothing of it could be seen to scale
         ax.set_aspect("auto")
-    ax.set_xlabel(f"x from the maximum pressure [{length_name}]")
+    ax.set_xlabel(f"x from the {through} [{length_name}]")
     ax.set_ylabel(f"depth [{length_name}]")
+    _name_maximum(ax, part, measure, float(values.max()))
     _name_layers(ax, result.plan.scene.interface.lower.elastic_stack, shown / length, length)
-    bar = ax.figure.colorbar(ax.collections[0], ax=ax, shrink=0.85)
+    bar = ax.figure.colorbar(ax.collections[0], ax=ax, location="bottom", aspect=35, shrink=0.8)
     bar.set_label(f"{LABELS[measure]} [{stress_name}]")
     return ax
 
 
-def _around_maximum(result: ContactResult, part: StressPart, values: Map) -> tuple[Map, Map]:
-    """Columns of the section with the maximum pressure in the middle, and their places [m].
+def _section(result: ContactResult, part: StressPart, measure: MeasureName) -> tuple[Map, Map, str]:
+    """A measure on a section through a maximum, places along it [m], and what has the maximum.
 
-    A window that repeats is rolled.
+    A window that repeats is rolled, with the maximum in its middle.
     """
     (_, nx), (_, dx) = result.plan.grid.shape, result.plan.grid.pixel_size
-    centre = int(np.argmax(result.pressure[part.row]))
+    if part.planes is None:
+        values = np.asarray(MEASURES[measure](part.section))
+        centre, through = int(np.argmax(result.pressure[part.row])), "maximum pressure"
+    else:
+        planes = np.asarray(MEASURES[measure](part.planes))
+        _, row, centre = (int(i) for i in np.unravel_index(int(planes.argmax()), planes.shape))
+        values, through = planes[:, row], "maximum stress"
     if result.plan.grid.periodic:
         values, centre = np.roll(values, nx // 2 - centre, axis=-1), nx // 2
-    return values, np.asarray((np.arange(nx) - centre) * dx, dtype=np.float64)
+    return values, np.asarray((np.arange(nx) - centre) * dx, dtype=np.float64), through
+
+
+def _name_maximum(ax: Axes, part: StressPart, measure: MeasureName, largest: float) -> None:
+    """Say in the panel how large the marked stress is, and whether it is larger elsewhere."""
+    size, unit = axis_unit(largest, "Pa")
+    whole, where = part.maxima[measure], "window"
+    elsewhere = []
+    if whole.value > _EQUAL * largest:
+        depth, name = axis_unit(whole.z, "m")
+        place = f"{whole.z / depth:.3g} {name} deep" if whole.z > 0.0 else "at the surface"
+        where, elsewhere = "section", [f"in the window {whole.value / size:.3g} {unit}, {place}"]
+    text = "\n".join([f"maximum of the {where}: {largest / size:.3g} {unit}", *elsewhere])
+    (mark,) = ax.plot([], [], "o", ms=6, mfc="none", mec=_MARK, mew=1.6, label=text)
+    legend(
+        ax,
+        handles=[mark],
+        fontsize=8,
+        loc="lower right",
+        labelcolor="w",
+        frameon=True,
+        facecolor="#00204d",
+        framealpha=0.7,
+        edgecolor="none",
+    )
 
 
 def depth_shown(result: ContactResult, measure: MeasureName = "von_mises") -> float:
     """Depth [m] down to which `below` draws: where the stress is a tenth of its maximum."""
     part = result.of(SubsurfaceStress)
-    largest = np.asarray(MEASURES[measure](part.section)).max(axis=1)
+    largest = _section(result, part, measure)[0].max(axis=1)
     last = int(np.flatnonzero(largest > _FAINT * largest.max())[-1])
     return float(part.depth[min(last + 1, len(part.depth) - 1)])
 
@@ -134,7 +160,8 @@ def _name_layers(ax: Axes, stack: Stack, shown: float, length: float) -> None:
     for material, top, bottom in zip(stack.materials, faces, faces[1:], strict=False):
         bottom = min(bottom, shown)
         if bottom - top > _NAMED * shown and material.name:
-            middle = 0.5 * (top + bottom) if bottom < shown else bottom - 0.07 * shown
+            above = max(0.5 * (top + bottom), bottom - 0.2 * shown)  # the legend lies below
+            middle = 0.5 * (top + bottom) if bottom < shown else above
             at = (0.02, middle)
             ax.text(*at, material.name, transform=ax.get_yaxis_transform(), color="w", fontsize=8)
 
@@ -215,9 +242,7 @@ def draw_section(
         if rows[0] > 0:
             ax.axhline(z[rows[0]], color="k", lw=0.9, ls="--")
     row, column = np.unravel_index(int(np.argmax(values)), values.shape)
-    ax.plot(
-        x[column], z[row], "o", ms=6, mfc="none", mec="#d55e00", mew=1.6, clip_on=False, zorder=5
-    )
+    ax.plot(x[column], z[row], "o", ms=6, mfc="none", mec=_MARK, mew=1.6, clip_on=False, zorder=5)
     ax.set(aspect="equal", ylim=(float(z.max()), float(z.min())))
     ax.grid(visible=False)
     return ax

@@ -20,7 +20,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 from matplotlib.text import Text
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
 
 from ..errors import DescriptionError
 from ..files.scenes import write_whole
@@ -42,9 +42,11 @@ __all__ = [
     "figure",
     "legend",
     "letters",
+    "mosaic",
     "mpl",
     "note",
     "plain_log",
+    "prefixed_log",
     "save",
     "save_animation",
     "series",
@@ -98,6 +100,7 @@ STYLE: Any = {
 }
 
 _MICRO = re.compile(r"(?<![\w$\\])u(?=(?:m[23]?|s|N|J|Pa)\b)")
+_POWER = re.compile(r"(?<=[µnm]m)[23](?=\])")
 _DEGREES = re.compile(r"(?<=\d) deg\b|\bdeg(?=C?\b)")
 _UNDATED: dict[str, dict[str, None]] = {
     "png": {"Software": None},
@@ -126,6 +129,15 @@ def figure(
     with mpl.rc_context(STYLE):
         made = Figure(figsize=size)
         return made, made.subplots(rows, columns, **grid)
+
+
+def mosaic(
+    panels: Sequence[Sequence[str]], size: tuple[float, float] = (7.0, 4.5), **grid: Any
+) -> tuple[Figure, dict[str, Axes]]:
+    """Make a figure whose panels span several places: the figure and its axes by name."""
+    with mpl.rc_context(STYLE):
+        made = Figure(figsize=size)
+        return made, made.subplot_mosaic([list(row) for row in panels], **grid)
 
 
 def save(made: Figure, path: str | Path, **more: Any) -> Path:
@@ -247,6 +259,17 @@ def plain_log(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
+def prefixed_log(axis: Axis, factor: float, unit: str) -> None:
+    """Label a logarithmic axis of many decades by prefixes, such as 10 ns and 1 µs.
+
+    Its data times `factor` are in the unit.
+    """
+    prefixed = EngFormatter(unit=unit)
+    axis.set_major_locator(LogLocator(numticks=5))
+    axis.set_major_formatter(lambda x, _: prefixed(x * factor))
+    axis.set_minor_formatter(NullFormatter())
+
+
 def letters(axes: Iterable[Axes], titles: Sequence[str] | None = None) -> None:
     """Number panels (a), (b) ... and name them; they keep their titles if none are given."""
     panels = list(axes)
@@ -259,7 +282,8 @@ def _set_in_print(made: Figure) -> None:
     """Write units in all texts of a figure with µ and °: labels may come from tables in ASCII."""
     for text in made.findobj(Text):
         given = text.get_text()
-        changed = _DEGREES.sub("°", _MICRO.sub("µ", given))
+        changed = _POWER.sub(lambda found: "²³"[int(found[0]) - 2], _MICRO.sub("µ", given))
+        changed = _DEGREES.sub("°", changed)
         if changed != given:
             text.set_text(changed)
 

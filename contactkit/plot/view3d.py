@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ..analyses.subsurface import MEASURES, MeasureName
+from ..analyses.subsurface import LABELS, MEASURES, MeasureName
 from ..contact.effects.stress import SubsurfaceStress
 from ..contact.result import ContactResult
 from ..errors import DescriptionError, NotSimulatedError, nearest
@@ -16,7 +17,7 @@ from ..extras import require
 from ..files.scenes import write_whole
 from .axis_units import axis_label, axis_unit, readable
 from .maps import map_names
-from .stress import LABELS
+from .style import mpl
 
 if TYPE_CHECKING:
     import pyvista as pv
@@ -28,6 +29,8 @@ _PURPOSE = "a view in three dimensions"
 # Heights are magnified to this fraction of the window: more hides valleys behind summits, less
 # looks flat in the slanted view.
 _RELIEF = 0.15
+_ON_GREY = ("pressure",)
+_FONT_OF_A_FILE = 4  # VTK_FONT_FILE
 _MARGIN = 15  # pixels around what is drawn
 _FAINT = 0.1  # of the maximum: as deep as the stress is larger, it is drawn; as in `stress`
 
@@ -293,27 +296,112 @@ def _drawn(
     factor, title = scale
     shown = mesh.copy()
     values = np.asarray(shown.point_data[name]) / factor
+    more: dict[str, Any] = {"nan_opacity": 0.0} if np.isnan(values).any() else {}
+    bar: dict[str, Any] = {}
+    least, top = float(np.nanmin(values)), float(np.nanmax(values))
+    if name == "pressure" and least >= 0.0 < top:  # grey out of contact
+        values = np.where(values > 0.0, values, -top)
+        more |= {"below_color": "#c4c4be"}
+        bar, least = {"below_label": "open"}, 0.0
+    elif least > 0.0:
+        least = 0.0
     shown.point_data[name] = values
     shown = shown.scale(1.0 / length, inplace=False)
-    view: Any = _pyvista().Plotter(off_screen=off_screen, window_size=[1200, 800])
+    view: Any = _pyvista().Plotter(off_screen=off_screen, window_size=[1400, 900])
     view.set_background("white")
-    bar = {"title": f"{title}\n", "color": "black", "vertical": True, "position_x": 0.86}
-    bar |= {"title_font_size": 16, "label_font_size": 14, "position_y": 0.03}
-    more: dict[str, Any] = {"nan_opacity": 0.0} if np.isnan(values).any() else {}
-    if name == "pressure" and values.min() >= 0.0 < values.max():  # grey out of contact
-        least = float(values[values > 0.0].min())
-        more |= {"clim": (least, float(values.max())), "below_color": "#c4c4be"}
-        bar["below_label"] = "none"
-    view.add_mesh(shown, scalars=name, cmap="viridis", ambient=0.25, scalar_bar_args=bar, **more)
+    colours = "viridis" if name in _ON_GREY else "YlOrRd"
+    levels = round_steps(least, top)
+    more |= {"clim": (levels[0], levels[-1]), "cmap": colours, "show_scalar_bar": False}
+    view.add_mesh(shown, scalars=name, ambient=0.3, **more)
+    _colour_bar(view, title, len(levels), bar)
     heights, name_of_heights = axis_unit(float((high - low)[2]) / stretch, "m")
-    ends = [*(float(v) / length for pair in zip(low[:2], high[:2], strict=True) for v in pair)]
-    ends += [float(v) / stretch / heights for v in (low[2], high[2])]
-    titles = {"xtitle": "x", "ytitle": "y", "ztitle": "z"}  # the fonts of these axes have no µ
-    view.show_bounds(
-        axes_ranges=ends, color="black", location="outer", n_zlabels=2, font_size=11, **titles
+    _axes(
+        view,
+        (low / length, high / length),
+        (1.0, 1.0, stretch * heights / length),
+        (unit, unit, name_of_heights),
     )
-    remark = f"x, y in {unit}; z in {name_of_heights}, {remark}"
-    view.add_text(remark, position="lower_left", font_size=9, color="black")
+    view.add_text(remark, position="lower_left", font_size=11, color="black", font_file=_font())
     view.camera_position = "iso"
+    view.reset_camera()
     made: pv.Plotter = view
     return made
+
+
+def _colour_bar(view: Any, title: str, n: int, more: dict[str, Any]) -> None:
+    """Colour bar at the right, with its title in lines that fit above it."""
+    words, bracket, unit = title.partition(" [")
+    lines = textwrap.wrap(words, 16) + ([bracket.strip() + unit] if bracket else [])
+    bar = view.add_scalar_bar(
+        "\n".join(lines) + "\n",
+        color="black",
+        vertical=True,
+        position_x=0.84,
+        position_y=0.1,
+        height=0.6,
+        width=0.08,
+        title_font_size=20,
+        label_font_size=20,
+        n_labels=n,
+        fmt="%.4g",
+        **more,
+    )
+    for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
+        text.SetFontFamily(_FONT_OF_A_FILE)
+        text.SetFontFile(_font())
+
+
+def _axes(view: Any, ends: Any, units: Sequence[float], names: Sequence[str]) -> None:
+    """Draw three edges of the block as axes with round ticks, towards the viewer.
+
+    `units` are the lengths of a unit of each axis in the drawing, and `names` those of the units.
+    """
+    low, high = ends
+    size = float((high - low).max())
+    corners = ((low[0], high[1], low[2]), (high[0], low[1], low[2]), (high[0], low[1], low[2]))
+    outwards = ((0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.7, -0.7, 0.0))
+    for i, (corner, out, unit) in enumerate(zip(corners, outwards, units, strict=True)):
+        start, away = np.array(corner), size * np.array(out)
+        along = np.eye(3)[i]
+        whole = np.array([start, start + (high - low)[i] * along])
+        view.add_lines(whole, color="black", width=2)
+        room = 0.12 * (high - low)[i]  # at the ends, where labels of two edges would meet
+        ticks = [
+            t
+            for t in round_steps(low[i] / unit, high[i] / unit)
+            if low[i] - 1e-9 * size + (i < 2) * room
+            <= t * unit
+            <= high[i] + 1e-9 * size - (i < 2) * room
+        ]
+        places = np.array([start + (t * unit - start[i]) * along for t in ticks])
+        for place in places:
+            view.add_lines(np.array([place, place + 0.02 * away]), color="black", width=2)
+        _texts(view, places + 0.06 * away, [f"{t:g}" for t in ticks])
+        _texts(view, [whole.mean(axis=0) + 0.17 * away], [f"{'xyz'[i]} [{names[i]}]"])
+
+
+def _texts(view: Any, places: Any, texts: Sequence[str]) -> None:
+    view.add_point_labels(
+        np.asarray(places),
+        list(texts),
+        font_file=_font(),
+        font_size=20,
+        text_color="black",
+        shape=None,
+        show_points=False,
+        always_visible=True,
+        justification_horizontal="center",
+        justification_vertical="center",
+    )
+
+
+def round_steps(low: float, high: float) -> list[float]:
+    """Round numbers in equal steps from at most `low` to at least `high`."""
+    high = high if high > low else low + 1.0
+    ticks = mpl.ticker.MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+    return [float(one) for one in ticks]
+
+
+def _font() -> str:
+    """Font that has the letters of all units; those of VTK lack some."""
+    return str(Path(mpl.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf")

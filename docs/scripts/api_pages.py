@@ -97,6 +97,7 @@ TOPICS = (
             *_of("plot.stress", "draw_section"),
         ),
     ),
+    Topic("live-pages", "Live pages", (), _of("live_page.page", "write_page")),
     Topic("errors", "Warnings and errors", ("errors",)),
     Topic("published", "Equations as published", ("as_published",)),
     Topic(

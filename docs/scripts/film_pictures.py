@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageSequence
 
 import contactkit as ck
 from contactkit.lubrication import reynolds
@@ -42,6 +42,18 @@ def pulled_disc() -> ck.SeparationResult:
     return ck.simulate(ck.plan(scene))
 
 
+def shrink(path: Path, colours: int = 64) -> None:
+    """Give all pictures of an animation one palette: what stays is then written once."""
+    with Image.open(path) as film:
+        frames, pause = [one.convert("RGB") for one in ImageSequence.Iterator(film)], film.info
+    whole = Image.new("RGB", (frames[0].width, frames[0].height * 3))
+    for i, k in enumerate((0, len(frames) // 2, len(frames) - 1)):
+        whole.paste(frames[k], (0, i * frames[0].height))
+    palette = whole.quantize(colours, Image.Quantize.MAXCOVERAGE, 1)
+    small = [one.quantize(palette=palette, dither=Image.Dither.NONE) for one in frames]
+    small[0].save(path, save_all=True, append_images=small[1:], duration=pause["duration"], loop=0)
+
+
 def pictures() -> None:
     """Draw the pictures of the page."""
     from contactkit.plot import film as film_plot
@@ -56,7 +68,8 @@ def pictures() -> None:
     states = list(reynolds.follow_gap(film, gap, times))
     shown = [states[i] for i in (3, 30, 60, 72)]
     film_plot.instants(shown).savefig(IMG / "film-instants.png")
-    film_plot.animate(states[1:76:3], IMG / "film-opening.gif", rate=8.0)
+    film_plot.animate(states[1:76:3], IMG / "film-opening.gif", rate=8)
+    shrink(IMG / "film-opening.gif")
     quarter = reynolds.rasterise(DISC, 64, window=(0.0, R, 0.0, R))
     film = reynolds.GridFilm(face=quarter, viscosity=OIL, drop=1e6)
     pulled = pulled_disc()
@@ -66,7 +79,7 @@ def pictures() -> None:
     for name in ("film-instants", "film-pull"):
         picture = IMG / f"{name}.png"
         with Image.open(picture) as drawn:
-            drawn.convert("P", palette=Image.Palette.ADAPTIVE, colors=128).save(picture)
+            drawn.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE, 1).save(picture)
 
 
 if __name__ == "__main__":

@@ -32,7 +32,9 @@ def copy_pages() -> None:
     (SHOWN / "index.md").write_text(index(scripts(), SHOWN), encoding="utf-8")
     for picture in sorted(MADE.glob("*.png")):
         with Image.open(picture) as image:
-            image.convert("RGB").quantize(COLOURS).save(SHOWN / picture.name, optimize=True)
+            image.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE, 1).save(
+                SHOWN / picture.name, optimize=True
+            )
 
 
 if __name__ == "__main__":

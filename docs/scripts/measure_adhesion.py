@@ -89,7 +89,7 @@ def pictures() -> None:
     plot.letters((left, right))
     plot.save(figure, picture)
     with Image.open(picture) as drawn:
-        drawn.convert("P", palette=Image.Palette.ADAPTIVE, colors=128).save(picture)
+        drawn.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE, 1).save(picture)
 
 
 TABLES = {"steps": steps}

@@ -29,6 +29,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 SHOWN_EXAMPLES = (
     "area_and_theories",
     "loading_history",
+    "rough_coating",
     "rubbed_sphere",
 )  # their figures, by the names of their files
 # (scene, command): figures by the name they have in the pages; with + beside each other, with /
@@ -53,7 +54,7 @@ SHOWN: Mapping[tuple[str, str], Mapping[str, str]] = {
         "force-gap": "mirror-force-gap",
     },
     ("head-disk", "run"): {
-        "pressure + areas": "head-disk-contact",
+        "areas + pressure-close-up": "head-disk-contact",
         "stress / stress-close-up": "head-disk-stress",
         "upper-stack / stack": "head-disk-stack",
         "study": "head-disk-load-curve",
@@ -113,7 +114,7 @@ def keep(folder: Path, names: Mapping[str, str], colours: int = 128) -> None:
     """Keep some figures of a run, small by a palette of so many colours."""
     for name, kept in names.items():
         figure = joined(folder, name)
-        small = figure.quantize(colours, dither=Image.Dither.NONE)
+        small = figure.quantize(colours, Image.Quantize.MAXCOVERAGE, 1, dither=Image.Dither.NONE)
         small.save(IMG / f"{kept}.png", optimize=True)
 
 
@@ -178,7 +179,8 @@ def views(folder: Path) -> None:
     page = (IMG.parent / "how-to" / "figures.md").read_text("utf-8")
     names: dict[str, Any] = {}
     with contextlib.chdir(folder):
-        exec(re.search(r"```python\n(.*?)```", page, re.DOTALL)[1], names)
+        code = re.search(r"```python\n(.*?)```", page, re.DOTALL)[1]
+        exec(code.replace("grid=64", "grid=256"), names)  # within its ranges of validity
     save_view(names["result"].plot.surface_3d(off_screen=True), folder / "surface.png")
     save_view(names["result"].plot.stress_3d(off_screen=True), folder / "stress.png")
 

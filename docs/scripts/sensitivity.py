@@ -2,13 +2,17 @@
 
 Sweeps the assumptions of the fuel injector, the micromirror and the head on the disk over the
 ranges of `models/*/assumptions.py`. Writes figures to
-``docs/img/``, every answer as CSV to ``docs/img/data/``, and tables where a page has them. Minutes.
+``docs/img/``, every answer as CSV to ``docs/img/data/``, and tables where a page has them. Minutes;
+``--draw`` draws the kept answers again.
 """
 
 from __future__ import annotations
 
+import csv
 import sys
 from collections.abc import Callable, Mapping
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -27,7 +31,8 @@ from contactkit.models.micromirror.release import humidity_limit, voltage_needed
 from contactkit.plot.axis_units import in_prose
 from contactkit.plot.style import save
 from contactkit.scene.description import value_text
-from contactkit.studies.sensitivity import Sensitivity
+from contactkit.studies.paths import value_at
+from contactkit.studies.sensitivity import Influence, Sensitivity
 
 IMG = Path(__file__).parents[1] / "img"
 DISK = {
@@ -108,30 +113,60 @@ def table(found: Sensitivity, names: Mapping[str, str]) -> str:
     return in_prose(f"As it is: {text(found.base)}.\n\n{table}{below}")
 
 
+def kept(name: str, one: Case) -> Sensitivity:
+    """The answers that were written into docs/img/data."""
+    with (IMG / "data" / f"tornado-{name}.csv").open(newline="", encoding="utf-8") as file:
+        heads, (_, _, _, base, *_), *rows = csv.reader(file)
+    quantity, _, unit = heads[3].removesuffix("]").rpartition(" [")
+    influences = []
+    for path, group in groupby(rows, key=itemgetter(0)):
+        _, texts, units, results, messages, reasons = zip(*group, strict=True)
+        found = Influence(
+            path,
+            units[0],
+            value_at(one.scene, one.accuracy or ck.Accuracy(), path.partition(",")[0].strip()),
+            tuple(float(text) if units[0] else text for text in texts),
+            tuple(map(float, results)),
+            messages,
+            reasons[0],
+        )
+        influences.append(found)
+    return Sensitivity(quantity, unit, float(base), tuple(influences))
+
+
 def main() -> int:
-    """Compute the cases named on the command line, or all."""
+    """Compute the cases named on the command line, or all; with ``--draw`` draw what is kept."""
     blocks = {}
     known = cases()
-    for name in sys.argv[1:] or known:
+    is_drawn, names = "--draw" in sys.argv, [one for one in sys.argv[1:] if one != "--draw"]
+    for name in names or known:
         one = known[name]
+        if is_drawn:
+            draw(kept(name, one), name, one)
+            continue
         found = ck.sensitivity(
             one.scene, one.ranges, one.answer, one.accuracy, n=one.n, unit=one.unit
         )
-        ax = found.plot.tornado(names=one.names, missing=one.missing, most=11)
-        if one.heading:
-            ax.set_xlabel(one.heading)
-        if one.percent:
-            ax.xaxis.set_major_locator(MaxNLocator(5))
-            ax.xaxis.set_major_formatter(PercentFormatter(1.0))
-        path = save(ax.figure, IMG / f"tornado-{name}")
-        with Image.open(path) as figure:
-            figure.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)
+        draw(found, name, one)
         found.save_csv(IMG / "data" / f"tornado-{name}")
         blocks[f"tornado {name}"] = table(found, one.names)
         sys.stdout.write(f"{found}\n\n")
-    drawn_alone = write_blocks(blocks)
+    drawn_alone = [] if is_drawn else write_blocks(blocks)
     sys.stdout.write(f"without a table: {', '.join(drawn_alone) or 'none'}\n")
     return 0
+
+
+def draw(found: Sensitivity, name: str, one: Case) -> None:
+    """Draw a figure, small by a palette."""
+    ax = found.plot.tornado(names=one.names, missing=one.missing, most=11)
+    if one.heading:
+        ax.set_xlabel(one.heading)
+    if one.percent:
+        ax.xaxis.set_major_locator(MaxNLocator(5))
+        ax.xaxis.set_major_formatter(PercentFormatter(1.0))
+    path = save(ax.figure, IMG / f"tornado-{name}")
+    with Image.open(path) as figure:
+        figure.convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE, 1).save(path, optimize=True)
 
 
 if __name__ == "__main__":

@@ -82,7 +82,7 @@ class Coupled:
     n_steps, n_rejected, n_calls : int
         Steps, rejected tries, and calls of the film.
     seconds : float
-        Wall time of the steps [s].
+        CPU time of the steps [s].
     """
 
     time: NDArray[np.float64]
@@ -178,10 +178,10 @@ def couple(
             if isinstance(steps, FixedSteps)
             else Walk(side, source, body, first, goal, steps.tolerance)
         )
-        begun = clock.perf_counter()
+        begun = clock.process_time()
         _go(walk, goal, math.inf if isinstance(steps, FixedSteps) else steps.max_steps)
         log = side.log + (source.log if isinstance(source, DrivePull) else [])
-        return _result(walk, side.calls + side.asked, tuple(log), clock.perf_counter() - begun)
+        return _result(walk, side.calls + side.asked, tuple(log), clock.process_time() - begun)
 
 
 def _source(

@@ -54,6 +54,8 @@ class PreparedFilm(NamedTuple):
     force: float
     """Static force at the start [N], or 0."""
     prepared: PreparedScene[SeparationScene]
+    effects: tuple[type[SeparationForce], ...]
+    """Effect that each law of a film is of, in the order of its laws."""
     liquid: LiquidTable | None = None
     """Laws of the liquid over the temperature, where that is a variable."""
 
@@ -158,9 +160,14 @@ def prepared_film(
         grid=_grid(common),
     )
     force = made.film.static_force(loading.initial_gap)
+    effects = tuple(
+        type(effect)
+        for effect in _forces(scene)
+        for _ in _parts(common, effect, made.film.laws[type(effect)])
+    )
     free = {name for name, value in common.free._asdict().items() if value}
     liquid = liquid_over_temperature(scene, free)
-    return PreparedFilm(tables, common.lowest, force, made.prepared, liquid)
+    return PreparedFilm(tables, common.lowest, force, made.prepared, effects, liquid)
 
 
 class _Common(NamedTuple):
@@ -186,7 +193,7 @@ def _film(common: _Common, fraction: float) -> Film:
     """Tables of the film with a fraction of the volume."""
     made = common.plan
     film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
-    forces = [e for e in made.scene.effects if isinstance(e, SeparationForce)]
+    forces = _forces(made.scene)
     rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
     is_liquid = any(kind.newtonian is not None for kind in film.laws)
     shape = _liquid_shape(prepared) if is_liquid else None
@@ -206,6 +213,10 @@ def _film(common: _Common, fraction: float) -> Film:
         rim_square=disc.rim * disc.rim if disc else 0.0,
         volume=disc.volume if disc else 0.0,
     )
+
+
+def _forces(scene: SeparationScene) -> list[SeparationForce]:
+    return [effect for effect in scene.effects if isinstance(effect, SeparationForce)]
 
 
 def _liquid_shape(prepared: PreparedScene[SeparationScene]) -> FilmShape:

@@ -18,7 +18,7 @@ from .faces import faces_of
 from .film import PreparedFilm, free_liquid, prepared_film
 from .models import native_model
 
-__all__ = ["build_native_tip"]
+__all__ = ["build_native_tip", "tip_ports"]
 
 
 def build_native_tip(
@@ -70,7 +70,7 @@ def build_native_tip(
     check_tip(values, has_curve=site is not None)
     scene = tip_scene(values)
     film = prepared_film(scene)
-    ports = _ports(film)
+    ports = tip_ports(film)
     about = native_about("tip-contact", ports, {port.name: values[port.name] for port in ports})
     faces = None if site is None else faces_of(LoadDisplacementCurve.from_data(site))
     content = NativeContent(film.tables, faces, scene=scene)
@@ -78,7 +78,7 @@ def build_native_tip(
     return write_native("tip-contact", about, content, place, fmi, names, compiler)
 
 
-def _ports(film: PreparedFilm) -> tuple[Port, ...]:
+def tip_ports(film: PreparedFilm) -> tuple[Port, ...]:
     """Variables of the Python FMU that the tables leave free, and within what they hold."""
     viscosity, surface_tension = free_liquid(film.prepared)
     liquid = {"eta": viscosity, "gamma": surface_tension}

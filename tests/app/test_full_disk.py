@@ -86,7 +86,7 @@ def test_a_disk_that_is_full_for_the_record_too_reports_the_first_file(
     scene, tmp_path, capsys, full
 ):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("contactkit.app.output.write_whole", no_space)
+        patch.setattr("contactkit.app.output.write_text", no_space)
         patch.setattr("contactkit.files.curves.save_npz", no_space)
         assert main(["study", str(scene), "--out", str(tmp_path / "out")]) == 2
     assert "No space left on device: a file" in capsys.readouterr().err

@@ -19,9 +19,9 @@ pytestmark = pytest.mark.errors
 
 SPEED = ck.ImposedSpeed(speed=1e-3, initial_gap=5e-6, final_gap=25e-6)
 SHAKEN = ck.Vibration(amplitude=1e-6, frequency=1e3)
-CONTACT = ck.load_scene(Path(ck.__file__).parent / "data" / "templates" / "contact.toml")
+SLIDING = ck.load_scene(Path(ck.__file__).parent / "data" / "templates" / "sliding.toml")
 REFUSED = {
-    "a contact": (CONTACT, "this is a ContactScene; its result as a page: contactkit run"),
+    "sliding": (SLIDING, "this is a SlidingScene; its result as a page: contactkit run"),
     "no mass": (film(mass=None), r"loading.mass \[kg\] is not given"),
     "a time": (
         evolve(film(), loading=ck.ImposedTime(time=1.0, initial_gap=5e-6, final_gap=25e-6)),
@@ -57,11 +57,20 @@ def test_without_the_compiler_the_extra_is_named(monkeypatch, tmp_path):
     assert [*tmp_path.iterdir()] == []
 
 
+def test_a_speed_has_no_fmu_and_is_refused_before_anything_is_built(monkeypatch, tmp_path):
+    monkeypatch.setattr("contactkit.live_page.page.page_data", None)
+    scene = evolve(film(cavity=False), loading=SPEED)
+    with pytest.raises(ck.PlanError, match=r"imposes a speed, and the FMU .* leave out the FMU"):
+        write_page(scene, tmp_path / "film.html", fmu=True)
+    assert [*tmp_path.iterdir()] == []
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("head-disk", "--out", "page.html"), "this is a ContactScene"),
-        (("fuel-injector", "--out", "page.html"), "InjectorScene"),
+        (("film.toml", "--loads", "3", "--out", "page.html"), "loads"),
+        (("none.npz", "--out", "page.html"), "none.npz"),
+        (("bridges", "--out", "page.html"), "Bridges"),
         (("film.toml", "--out", "page.txt"), "page.txt"),
         (("none.toml", "--out", "page.html"), "exist"),
     ],

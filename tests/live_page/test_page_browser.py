@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import re
 import shutil
 import subprocess
 import warnings
+from functools import partial
 from html import unescape
 
 import numpy as np
@@ -15,7 +17,21 @@ from page_scenes import film
 from wasm import MISSING
 
 import contactkit as ck
+from contactkit.app.scenes import open_scene
+from contactkit.fmu.framework.toolchain import local
+from contactkit.fmu.native.build import build_native
+from contactkit.live_page import mirror_page
 from contactkit.live_page.page import write_page
+from contactkit.models.injector.delays import (
+    closing_delay,
+    closing_lag,
+    delay,
+    residual_gap,
+    sticking_time,
+)
+from contactkit.models.library import bundled_device
+from contactkit.models.micromirror.release import humidity_limit, landing, release, smallest_reset
+from contactkit.models.micromirror.tip_film import adhesion, tip_law
 
 BROWSER = next(
     filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
@@ -35,10 +51,11 @@ NAME = "film</script><b id=evil><!--<script>"  # a name that is HTML stays a nam
 PROBE = """<script>addEventListener("load", () => {
 const wait = setInterval(() => {
   if (!document.body.dataset.ready) return;
-  clearInterval(wait);
+  if (view.settled && shown.rows.length && !document.body.dataset.swept) return;
   const at = charts[0].svg.getBoundingClientRect();
   const middle = { clientX: at.left + at.width / 2 };
   if (charts[0].shown.length) charts[0].svg.dispatchEvent(new PointerEvent("pointermove", middle));
+  clearInterval(wait);
   for (const [id, text] of [["saved-toml", sceneNow()], ["saved-csv", curves()]]) {
     const pre = document.createElement("pre");
     pre.id = id, pre.textContent = text;
@@ -162,3 +179,123 @@ def test_what_the_kernel_refuses_the_page_says(page, tmp_path):
         r'id="status"[^>]*class="bad">gap at release must exceed gap at the start', dom
     )
     assert numbers(dom) == {}
+
+
+SAVE_FMU = """<script>function fmuSaved() {
+  let saved = "";
+  const was = save, hex = (byte) => byte.toString(16).padStart(2, "0");
+  save = (name, content) => { saved = `${name} ${Array.from(content, hex).join("")}`; };
+  document.querySelector("#fmus button").click();
+  save = was;
+  return saved;
+}
+"""
+
+
+def test_the_fmu_in_a_page_is_that_of_the_scene(tmp_path, monkeypatch):
+    """As built for this computer; the button saves the bytes of `build_native`."""
+    here = partial(build_native, platforms=[local()])
+    monkeypatch.setattr("contactkit.live_page.fmu_files.build_native", here)
+    scene = film(volume=None, cavity=False)  # no tables over a grid but of the radius
+    scene = evolve(scene, effects=(ck.ViscousForce(),))
+    page = write_page(scene, tmp_path / "film.html", fmu=True)
+    probe = PROBE.replace("curves()]]", "curves()], ['saved-fmu', fmuSaved()]]").replace(
+        "<script>", SAVE_FMU, 1
+    )
+    page.write_text(page.read_text("utf-8").replace("</body>", probe), "utf-8")
+    name, content = pre(shown(page, tmp_path), "saved-fmu").split()
+    assert name == "film-of-a-page.fmu"
+    assert bytes.fromhex(content) == here(scene, tmp_path / "own.fmu").read_bytes()
+
+
+@pytest.fixture(scope="module")
+def injector(tmp_path_factory):
+    path = write_page(bundled_device("fuel-injector"), tmp_path_factory.mktemp("page") / "v.html")
+    path.write_text(path.read_text("utf-8").replace("</body>", PROBE), "utf-8")
+    return path
+
+
+def test_the_page_of_an_injector_shows_its_delays(injector, tmp_path):
+    scene = bundled_device("fuel-injector")
+    dom = shown(injector, tmp_path)
+    mine = numbers(dom)
+    assert mine["release_delay"] == pytest.approx(delay(scene, scene.temperature), rel=1e-4)
+    assert mine["sticking_time"] == pytest.approx(sticking_time(scene), rel=1e-3)
+    assert mine["closing_delay"] == pytest.approx(closing_delay(scene), abs=2e-6)
+    assert mine["closing_lag"] == pytest.approx(closing_lag(scene), abs=5e-7)  # 4 us
+    assert mine["residual_gap"] == pytest.approx(residual_gap(scene), rel=3e-3)
+    # At the flip the drop in the cavity holds the pull for the whole pulse, and a little below not.
+    flip = mine["flip_pressure"] * 1e5
+    assert math.isnan(delay(scene, scene.temperature, ambient_pressure=1.005 * flip))
+    assert delay(scene, scene.temperature, ambient_pressure=0.995 * flip) > 2e-3
+    assert dom.count('class="chart"') == 6
+
+
+def test_the_address_moves_the_injector_and_its_file(injector, tmp_path):
+    address = "#ambient=1200000&tension=600000&cavity=-200000&temperature=353.15"
+    dom = shown(injector, tmp_path, address + "&radius=0.0029&coil_turns=42&initial_gap=0.000004")
+    path = tmp_path / "saved.toml"
+    path.write_text(pre(dom, "saved-toml"), "utf-8")
+    scene = open_scene(str(path)).scene
+    limit = scene.tension_limit
+    assert (limit.ambient_pressure, limit.tension) == (1.2e6, 1.8e6)
+    assert limit.pressure_in_cavity == pytest.approx(-2e5)
+    assert scene.interface.rim_radius == 0.0029
+    assert (scene.valve.coil.turns, scene.loading.final_gap) == (42, pytest.approx(22e-6))
+    found = numbers(dom)["release_delay"]
+    assert found == pytest.approx(delay(scene, scene.temperature), rel=1e-4)
+
+
+def test_an_injector_that_never_opens(injector, tmp_path):
+    dom = shown(injector, tmp_path, "#ambient=2000000")
+    assert "never opens within the pulse of 4 ms: the film holds it" in dom
+    assert math.isnan(numbers(dom)["release_delay"])
+    assert numbers(dom)["dry_release_delay"] > 0.0
+
+
+@pytest.fixture(scope="module")
+def micromirror(tmp_path_factory):
+    """The page with humidity and gap on its grid: four quantities take 15 s."""
+    with pytest.MonkeyPatch.context() as patch:
+        whole = mirror_page._grid
+        patch.setattr(
+            mirror_page,
+            "_grid",
+            lambda scene: tuple(one for one in whole(scene) if one.name in ("humidity", "gap")),
+        )
+        scene = bundled_device("micromirror")
+        path = write_page(scene, tmp_path_factory.mktemp("page") / "m.html")
+    path.write_text(path.read_text("utf-8").replace("</body>", PROBE), "utf-8")
+    return path
+
+
+def test_the_page_of_a_micromirror_shows_its_release(micromirror, tmp_path):
+    scene = bundled_device("micromirror")
+    dom = shown(micromirror, tmp_path)
+    mine, law = numbers(dom), tip_law(scene.tip, 0.5)
+    assert mine["free_time"] == pytest.approx(release(scene, law, 34.0), rel=1e-9)
+    assert mine["alone_time"] == pytest.approx(release(scene, law, None), rel=1e-9)
+    assert mine["smallest_pulse"] == pytest.approx(smallest_reset(scene, law).voltage, abs=0.06)
+    assert mine["humidity_limit"] == pytest.approx(100.0 * humidity_limit(scene), abs=0.7)
+    held = adhesion(scene.tip, 0.5)
+    assert mine["meniscus_force"] == pytest.approx(2.0 * held.meniscus_force, rel=1e-6)
+    assert mine["van_der_waals_force"] == pytest.approx(2.0 * held.solid_force, rel=1e-6)
+    assert mine["preload"] == pytest.approx(landing(scene).preload, rel=1e-6)
+    assert validity(dom)["Kelvin radius [m]"] == pytest.approx(held.kelvin_radius, rel=1e-6)
+    assert "validity: out of range: Kelvin radius" in dom
+
+
+def test_the_address_moves_the_micromirror_and_its_file(micromirror, tmp_path):
+    moved = "#humidity=0.65&gap=3.5e-10&loading_stiffness=1.3&electrode_gap=0.00000155&reset=29"
+    dom = shown(micromirror, tmp_path, moved)
+    path = tmp_path / "saved.toml"
+    path.write_text(pre(dom, "saved-toml"), "utf-8")
+    scene = open_scene(str(path)).scene
+    assert (scene.study.humidity, scene.loading.rest_gap) == (0.65, 3.5e-10)
+    assert scene.mirror.waveform.reset_voltage == -29.0
+    law = tip_law(scene.tip, 0.65)
+    mine = numbers(dom)
+    expected = release(scene, law, 29.0)
+    assert mine["free_time"] == pytest.approx(expected, rel=1e-9, nan_ok=True)
+    assert mine["smallest_pulse"] == pytest.approx(smallest_reset(scene, law).voltage, abs=0.2)
+    assert mine["adhesion"] == pytest.approx(2.0 * adhesion(scene.tip, 0.65).force, rel=5e-3)

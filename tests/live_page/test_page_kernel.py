@@ -126,6 +126,37 @@ def test_forces_at_a_gap_are_those_of_the_plan(wasm):
         assert wasm.at(gap, 1e-3)[4] == pytest.approx(made.force(gap, 1e-3), rel=1e-9)
 
 
+WET = evolve(
+    film(cavity=False),
+    effects=(ck.VanDerWaalsForce(hamaker_constant=1e-19), *film(cavity=False).effects),
+)
+
+
+def test_each_force_is_that_of_its_effect(wasm):
+    made, kernel = ck.plan(WET), kernel_scene(WET, STANDARD)
+    wasm.begin(kernel.numbers())
+    kinds = kernel.film.effects
+    assert kinds == (ck.VanDerWaalsForce, ck.MeniscusForce, ck.ViscousForce)
+    for gap in (4e-6, 8e-6):
+        row = wasm.at(gap, 1e-3)
+        for i, kind in enumerate(kinds):
+            force = made.film.laws[kind].force(gap, 1e-3)
+            assert row[11 + i] == pytest.approx(force, rel=1e-8), kind
+        assert row[11:].sum() == pytest.approx(row[4], rel=1e-12)
+        assert row[10] == pytest.approx(row[6], rel=1e-12), "no limit acts"
+
+
+def test_a_limit_lowers_the_viscous_force_alone(wasm):
+    scene = film(cavity=False)
+    cut = ck.TensionLimit(strength=1e5, cavity="truncated")
+    scene = evolve(scene, effects=(*scene.effects, cut))
+    made = ck.plan(scene)
+    wasm.begin(kernel_scene(scene, STANDARD).numbers())
+    row = wasm.at(5e-6, 1e-2)
+    assert row[10] > 2.0 * row[12]
+    assert row[11] + row[12] == pytest.approx(made.force(5e-6, 1e-2), rel=1e-8)
+
+
 @pytest.mark.parametrize(
     ("variables", "said"),
     [

@@ -145,7 +145,7 @@ def test_the_liquid_is_that_of_its_laws_between_the_nodes():
 
 
 def test_what_is_packed_is_packed_the_same_every_time():
-    from contactkit.live_page.page import packed
+    from contactkit.live_page.assembly import packed
 
     assert gzip.decompress(base64.b64decode(packed(b"abc"))) == b"abc"
     assert packed(b"abc") == packed(b"abc")

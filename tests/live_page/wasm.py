@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import gzip
 import importlib.util
+import math
+from base64 import b64decode
 
 import numpy as np
 import pytest
+
+from contactkit.liquids.temperature_table import LiquidTable
 
 NEEDED = ("ziglang", "wasmtime")
 MISSING = [name for name in NEEDED if importlib.util.find_spec(name) is None]
@@ -13,7 +18,7 @@ needs_runtime = pytest.mark.skipif(
     bool(MISSING), reason=f"{' and '.join(MISSING)} not installed: pip install contactkit[test-all]"
 )
 
-COLUMNS = 10
+COLUMNS = 19  # the last eight are the laws of forces
 HOW = {-1: "failed", 0: "steps", 1: "released", 2: "stuck", 3: "late"}
 
 
@@ -50,14 +55,21 @@ class Wasm:
         count = self._call("ck_page_count")
         return self._numbers(self._call("ck_page_rows"), count * COLUMNS).reshape(-1, COLUMNS)
 
-    def begin(self, numbers, variables=(), force=0.0, rise=0.0, limit=3600.0):
-        at = self._call("ck_page_room", len(numbers))
+    def fill(self, calls, numbers):
+        at = self._call(f"{calls}_room", len(numbers))
         self.calls["memory"].write(self.store, np.array(numbers, dtype="<f8").tobytes(), at)
-        fine = self._call("ck_page_open", len(numbers))
-        if fine:
-            self._call("ck_page_reset", force, rise, limit)
-            fine = all(self._call("ck_page_set", *one) for one in variables)
-        if not (fine and self._call("ck_page_start")):
+        if not self._call(f"{calls}_open", len(numbers)):
+            raise ValueError(self.said())
+
+    def load(self, numbers, variables=(), force=0.0, rise=0.0, limit=3600.0):
+        self.fill("ck_page", numbers)
+        self._call("ck_page_reset", force, rise, limit)
+        if not all(self._call("ck_page_set", *one) for one in variables):
+            raise ValueError(self.said())
+
+    def begin(self, numbers, variables=(), force=0.0, rise=0.0, limit=3600.0):
+        self.load(numbers, variables, force, rise, limit)
+        if not self._call("ck_page_start"):
             raise ValueError(self.said())
 
     def motion(self):
@@ -79,3 +91,81 @@ class Wasm:
 
     def end(self):
         return self._call("ck_page_end")
+
+
+class Valve(Wasm):
+    """The page of an injector, driven as ``template/valve.js`` drives it."""
+
+    def __init__(self, data):
+        super().__init__()
+        self.data = data
+        self.film = unpacked(data["numbers"])[: data["count"]]
+        self.drive = unpacked(data["drive"])
+        self.start = {one["name"]: one["value"] for one in data["sliders"]}
+
+    def run(self, until_release=True, dry=False, **values):
+        """Time of the release [s], nan if there is none within the pulse; rows."""
+        now, data = self.start | values, self.data
+        film, drive = [*self._liquid(now), *self._tensions(now)], []
+        for one in data["sliders"]:
+            if now[one["name"]] == one["value"]:
+                continue
+            for model, reference, offset in one.get("targets", ()):
+                chosen = film if model == "film" else drive
+                chosen.append((reference, now[one["name"]] + offset))
+        references = data["references"]
+        if dry:
+            film += [(references[name], 0.0) for name in ("dp_inception", "dp_hold")]
+            film.append((references["eta"], 1e-15))
+        self.fill("ck_valve", self.drive)
+        self._call("ck_valve_reset")
+        self.load(self.film, film, limit=data["times"]["cycle"])
+        if not all(self._call("ck_valve_set", *one) for one in drive):
+            raise ValueError(self.said())
+        if not self._call("ck_valve_start"):
+            raise ValueError(self.said())
+        return self._steps(until_release)
+
+    def _liquid(self, now):
+        kelvin = now.get("temperature")
+        if kelvin == self.start.get("temperature"):
+            return []
+        liquid = LiquidTable(**self.data["liquid"])
+        ratio = {
+            name: liquid.at(name, kelvin) / liquid.at(name, self.start["temperature"])
+            for name in liquid.logs
+        }
+        return [
+            (one["reference"], one["value"] * ratio[one["name"]]) for one in self.data["properties"]
+        ]
+
+    def _tensions(self, now):
+        references = self.data["references"]
+        if self.data["limit"] < 0:
+            return []
+        inside = max(now["cavity"], -now["tension"])
+        return [
+            (references["dp_inception"], now["ambient"] + now["tension"]),
+            (references["dp_hold"], now["ambient"] - inside),
+        ]
+
+    def _steps(self, until_release):
+        times = self.data["times"]
+        end = times["pulse"] if until_release else times["cycle"]
+        longest = min(self.data["step"], 0.2 * self._call("ck_valve_longest"))
+        length = end / math.ceil(end / longest - 1e-9)
+        rows, ended = list[np.ndarray](), 0
+        while ended == 0:
+            ended = self._call("ck_valve_run", length, end, int(until_release))
+            count = self._call("ck_valve_count")
+            rows.append(self._numbers(self._call("ck_valve_rows"), count * 13).reshape(-1, 13))
+        if ended < 0:
+            raise ValueError(self.said())
+        self._call("ck_page_numbers")
+        release = self.rows()[0][2]
+        return (release if 0.0 <= release <= times["pulse"] else math.nan), np.concatenate(rows)
+
+
+def unpacked(text):
+    """Numbers that a page carries as text."""
+    return np.frombuffer(gzip.decompress(b64decode(text)), dtype="<f8")

@@ -37,6 +37,30 @@ def test_maps_show_the_film_alone(steps):
     assert np.array_equal(whole[16:, 16:], whole[15::-1, 15::-1])
 
 
+def test_a_cavity_has_another_colour_than_a_low_pressure(steps):
+    state = steps[-1]
+    ax = film_plot.pressure(state)
+    void = state.film.face.loaded & (state.liquid_fraction < 1.0)
+    assert 0.1 < void.mean() < 0.9
+    assert np.array_equal(~np.ma.getmaskarray(ax.images[1].get_array()), void)
+    lowest, cavity = (one.cmap(one.norm(-10.0)) for one in ax.images[:2])
+    assert max(abs(a - b) for a, b in zip(lowest, cavity, strict=True)) > 0.5
+    assert [one.get_text() for one in ax.get_legend().get_texts()] == ["cavity, at -10 bar"]
+    full = reynolds.solve_pressure(
+        reynolds.GridFilm(face=state.film.face, viscosity=0.1), 5e-6, 0.1
+    )
+    assert film_plot.pressure(full).get_legend() is None
+
+
+def test_a_round_edge_is_drawn_round(steps):
+    """On 16 cells the edge of the film is a staircase; it is covered up to the circle."""
+    ax = film_plot.pressure(steps[0])
+    edge = ax.collections[-1].get_paths()[0].vertices
+    away = np.hypot(*edge.T)
+    assert np.ptp(away) < 0.02 * R * 1e3
+    assert away.mean() == pytest.approx(R * 1e3, rel=0.01)
+
+
 def test_instants_have_one_scale(steps):
     made = film_plot.instants([steps[0], steps[-1]], mirror=(True, True))
     limits = {ax.images[0].get_clim() for ax in made.axes[:2]}

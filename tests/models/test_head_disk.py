@@ -18,7 +18,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarni
 
 FIGURES = (
     *("pressure", "gap", "displacement", "heights", "areas", "section", "stack", "stress"),
-    *("stress_close_up", "traction_x"),
+    *("pressure_close_up", "stress_close_up", "traction_x"),
 )
 SMALL = """
 name = "small contact"

@@ -6,10 +6,12 @@ import subprocess
 import sys
 import warnings
 
+import attrs
 import numpy as np
 import pytest
 
 import contactkit as ck
+from contactkit.analyses.subsurface import MEASURES
 from contactkit.kinds import CONTACT_EFFECTS
 
 style = pytest.importorskip("contactkit.plot.style")
@@ -99,7 +101,7 @@ def test_every_figure_that_an_effect_declares_is_a_method():
 @pytest.mark.slow
 def test_what_a_contact_can_draw_is_drawn_with_units_by_size(pressed, tmp_path):
     names = [name for name in pressed.plot.available if name != "map"]
-    more = {"surface_3d", "explore"}
+    more = {"surface_3d", "explore", "pressure_close_up"}
     assert {"pressure", "gap", "displacement", "heights", "areas", "section"} | more == set(names)
     bars = {"pressure": "GPa", "gap": "nm", "displacement": "nm", "heights": "nm"}
     for name in sorted(set(names) - more):
@@ -129,10 +131,62 @@ def test_maps_of_effects_are_drawn_by_their_names(tmp_path):
         result.plot.section(row=16)
 
 
+def test_a_close_up_of_the_pressure_has_its_maximum_in_the_middle():
+    result = ck.solve(contact())
+    ax = result.plot.pressure_close_up()
+    shown = ax.images[0].get_array()
+    assert shown.shape == (9, 9)
+    assert shown[4, 4] == shown.max()
+    factor = {"[GPa]": 1e9, "[MPa]": 1e6}[ax.images[0].colorbar.ax.get_ylabel().split()[-1]]
+    assert shown.max() * factor == pytest.approx(result.max_pressure)
+    assert ax.get_xlim() == pytest.approx((-450.0, 450.0))
+    assert ax.get_xlabel() == "x from the maximum pressure [nm]"
+
+
+def test_a_map_of_the_gap_shows_the_contact(pressed):
+    ax = pressed.plot.gap()
+    np.testing.assert_array_equal(~ax.images[-1].get_array().mask, pressed.contact)
+    assert [one.get_text() for one in ax.get_legend().get_texts()] == ["contact"]
+    assert pressed.plot.displacement().get_legend() is None
+
+
+def test_a_section_of_stress_says_whose_maximum_it_marks():
+    """With friction the largest stress is rarely in the row of the largest pressure."""
+    rough = ck.GaussianRoughness(rms=2e-9, correlation_length=2e-7, cutoff=2e-7, seed=3)
+    wave = contact()
+    for keep in ("section", "planes"):
+        scene = attrs.evolve(
+            wave.scene,
+            interface=ck.Interface(lower=ck.Body(surface=rough, solid=STEEL), upper=ck.Flat()),
+            window=ck.Window(width=1e-6),
+            effects=(
+                ck.HalfSpace(),
+                ck.SubsurfaceStress(keep=keep),
+                ck.FrictionTraction(coefficient=0.5),
+            ),
+        )
+        result = ck.solve(ck.plan(scene, ck.Accuracy(grid=32)))
+        ax = result.plot.stress("tension")
+        part = result.of(ck.SubsurfaceStress)
+        marked = float(ax.get_lines()[-2].get_ydata()[0]) * 1e-9
+        whole = part.maxima["tension"]
+        own = float(MEASURES["tension"](part.section).max())
+        assert own < 0.99 * whole.value
+        (text,) = (one.get_text() for one in ax.get_legend().get_texts())
+        if keep == "planes":
+            assert marked == pytest.approx(whole.z)
+            assert text == f"maximum of the window: {whole.value / 1e9:.3g} GPa"
+            assert ax.get_xlabel() == "x from the maximum stress [nm]"
+        else:
+            first, second = text.split("\n")
+            assert first == f"maximum of the section: {own / 1e9:.3g} GPa"
+            assert f"in the window {whole.value / 1e9:.3g} GPa" in second
+
+
 def test_stress_is_drawn_to_scale_over_linear_depth_with_its_maximum():
     result = ck.solve(contact(ck.SubsurfaceStress()))
     ax = result.plot.stress()
-    (mark,) = ax.get_lines()
+    mark, _ = ax.get_lines()
     maximum = result.of(ck.SubsurfaceStress).maxima["von_mises"]
     assert mark.get_ydata()[0] * 1e-9 == pytest.approx(maximum.z)
     assert (ax.get_aspect(), ax.get_yscale(), ax.yaxis_inverted()) == (1.0, "linear", True)
@@ -178,14 +232,39 @@ def test_a_separation_draws_what_it_determines(gap, lengths, tmp_path):
         result.plot.cycles()
 
 
-def test_limits_of_the_liquid_are_hatched_below_the_curves():
-    effects = (ck.ViscousForce(), ck.TensionLimit(strength=1e4, cavity="truncated"))
-    result = ck.simulate(ck.plan(film(PULLED, *effects)))
+def test_a_film_that_cavitates_at_once_is_drawn_over_time():
+    effects = (ck.ViscousForce(), ck.TensionLimit(strength=1e6))
+    thrown = ck.ImposedForce(initial_gap=5e-6, final_gap=25e-6, force=40.0, mass=0.02)
+    result = ck.simulate(ck.plan(film(thrown, *effects)))
+    force, time, acts = result["viscous_force"], result["time"], result["limit"] > 1.0
     ax = result.plot.forces()
-    (hatched,) = ax.collections
-    assert hatched.get_hatch()
-    assert hatched.get_facecolor().size == 0 or hatched.get_facecolor()[0, 3] == 0.0
-    assert hatched.get_zorder() < min(line.get_zorder() for line in ax.get_lines())
+    line = next(one for one in ax.get_lines() if one.get_label() == "viscous force")
+    x, y = line.get_data()
+    assert len(x) == len(time)
+    assert (ax.get_xlabel(), ax.get_xscale()) == ("time", "log")
+    labels = [one.get_text() for one in ax.get_xticklabels()]
+    assert {one.split()[-1] for one in labels if one} >= {"ns", "µs"}
+    shown = (x >= ax.get_xlim()[0]) & (x <= ax.get_xlim()[1]) & (y <= ax.get_ylim()[1])
+    assert shown[int(force.argmax())]  # the peak is on the panel, and not on its frame
+    peak = ax.transData.transform((x[int(force.argmax())], 0.0))
+    assert 0.05 < ax.transAxes.inverted().transform(peak)[0] < 0.95
+    (bar,) = ax.collections
+    ends = bar.get_paths()[0].vertices[:, 0] * time[-1] / x[-1]
+    assert (ends.min(), ends.max()) == pytest.approx((time[acts][0], time[acts][-1]))
+    assert bar.get_paths()[0].vertices[:, 1].max() < 0.05  # nothing else is shaded
+    release = next(one for one in ax.get_lines() if one.get_label() == "release")
+    assert release.get_xdata()[0] * time[-1] / x[-1] == pytest.approx(result.state.release_time)
+    gap = result.plot.forces(over="gap")
+    assert (gap.get_xlabel(), gap.get_xscale()) == ("gap [µm]", "log")
+    with pytest.raises(ck.DescriptionError, match=r"forces\.over must be gap or time"):
+        result.plot.forces(over="speed")
+
+
+def test_a_film_that_cavitates_at_a_given_speed_is_drawn_over_the_gap():
+    effects = (ck.ViscousForce(), ck.TensionLimit(strength=1e4, cavity="truncated"))
+    ax = ck.simulate(ck.plan(film(PULLED, *effects))).plot.forces()
+    assert ax.get_xlabel() == "gap [µm]"
+    assert [one.get_label() for one in ax.collections] == ["limit of the liquid acts"]
 
 
 def test_curves_of_one_unit_are_drawn_over_any_other():
@@ -278,3 +357,24 @@ def test_matplotlib_comes_with_the_first_figure_alone():
         "assert 'matplotlib' in sys.modules\n"
     )
     subprocess.run([sys.executable, "-W", "ignore", "-c", code], check=True)
+
+
+def test_errors_of_closures_are_written_beside_their_cost():
+    from contactkit.plot.cost import closures
+    from contactkit.work_precision import Point, WorkPrecision
+
+    points = (
+        Point("exact", "flats, 0/0 deg, 200 gaps", 3e-14, 3e-5, {}),
+        Point("exact", "flats, 0/0 deg, 200 gaps, first time", 3e-14, 5e-5, {}),
+        Point("exact", "flats, 0/0 deg, one gap", 2e-16, 2e-3, {}),
+        Point("arc", "flats, 0/0 deg, 200 gaps", 0.0604, 8e-8, {}, is_model=True),
+        Point("arc", "sphere V/R^3 = 0.01, 200 gaps", 1.36, 7e-6, {}, is_model=True),
+    )
+    found = WorkPrecision("force", 1.0, 1e-12, points)
+    names = ["flats, 0/0 deg", "sphere V/R^3 = 0.01"]
+    ax = closures(found, style.figure()[1], names)
+    assert sorted(one.get_text() for one in ax.texts) == ["136 %", "6 %", "exact", "exact"]
+    assert ax.get_yticklabels()[0].get_text() == "flats, 0/0°"
+    places = {round(one.xy[1]): one.get_text() for one in ax.texts if one.get_text() != "exact"}
+    assert places == {0: "6 %", 1: "136 %"}
+    assert ax.get_xlabel() == "seconds per gap; beside them: error of the force"

@@ -104,6 +104,19 @@ def test_without_pyvista_the_extra_is_named(stressed, monkeypatch):
         stressed.plot.surface_3d()
 
 
+@pytest.mark.parametrize(
+    ("low", "high"), [(-141.0, 156.2), (0.000995, 7.51), (-7.4, -0.0), (0.0, 0.0)]
+)
+def test_steps_on_axes_in_three_dimensions_are_round(low, high, view3d):
+    steps = view3d.round_steps(low, high)
+    assert steps[0] <= low <= high <= steps[-1]
+    assert 2 <= len(steps) <= 8
+    assert all(len(f"{one:g}".strip("-").replace(".", "").strip("0")) <= 2 for one in steps)
+    apart = np.diff(steps)
+    assert apart.min() > 0.0
+    np.testing.assert_allclose(apart, apart[0])
+
+
 @pytest.mark.slow
 def test_views_are_drawn_without_a_screen(stressed, view3d, tmp_path):
     """In a process of their own: a graphics library that fails ends it."""
@@ -172,7 +185,11 @@ def test_a_slider_goes_through_the_planes_of_stress(stressed):
     image = look.figure.axes[0].images[0].get_array()
     ratio = image.max() / look._maps[2].max()
     assert ratio == pytest.approx(1.0)
-    assert look.figure.axes[0].get_title(loc="left").startswith("50 nm deep")
+    assert look.slider.valtext.get_text() == "50 nm"
+    value = image[look.row, look.column]
+    assert look.figure.axes[0].get_title(loc="left").startswith(f"{value:.4g} MPa at x = ")
+    assert look.figure.axes[0].get_title(loc="left").endswith(" µm, 50 nm deep")
+    assert stressed.plot.explore("gap").slider is None
     with pytest.raises(ck.DescriptionError, match="be one of pressure"):
         stressed.plot.explore("temperature")
     with pytest.raises(ck.NotSimulatedError, match="add SubsurfaceStress"):

@@ -15,6 +15,7 @@ from contactkit.models.injector.delays import closing_lag, residual_gap, stickin
 from contactkit.models.micromirror.assumptions import NAMES as MIRROR_NAMES
 from contactkit.models.micromirror.assumptions import RANGES as MIRROR_RANGES
 from contactkit.models.micromirror.release import humidity_limit, voltage_needed
+from contactkit.studies.sensitivity import Influence
 
 VISCOSITY, RADIUS = "interface.meniscus.liquid.viscosity", "interface.lower.surface.radius"
 RADII = f"{RADIUS}, interface.upper.surface.radius"
@@ -160,6 +161,19 @@ def test_figure_has_a_bar_for_each_end(film, found):
     ]
     assert len(ax.patches) == 8
     assert ax.get_xlabel() == "peak_force [N]"
+
+
+def test_figure_only_names_what_moves_nothing(found):
+    idle = Influence("film.idle", "m", 1.0, (0.5, 2.0), (found.base, 1.001 * found.base), ("", ""))
+    lost = Influence("film.lost", "m", 1.0, (0.5, 2.0), (found.base, math.nan), ("", "no release"))
+    more = evolve(found, influences=(*found.influences, idle, lost))
+    ax = more.plot.tornado(missing="never released")
+    labels = [one.get_text() for one in ax.get_yticklabels()]
+    assert len(labels) == 5
+    assert not any("idle" in one for one in labels)
+    texts = [one.get_text() for one in ax.texts]
+    assert "less than 2 % of this axis: idle" in texts
+    assert "2 m: never released" in texts
 
 
 @pytest.fixture(scope="module")

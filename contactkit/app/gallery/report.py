@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...files.csv_rows import write_rows
-from ...files.scenes import write_whole
+from ...files.scenes import write_text
 from ...plot.axis_units import in_prose
 from .page import Check, Data, Table
 from .scripts import CHAPTERS, Script
@@ -47,8 +47,7 @@ def write_page(script: Script, made: Made, checks: list[Check], out: Path) -> No
     table: Table | None = module.table(made.data) if hasattr(module, "table") else None
     if table is not None:
         write_rows(out / f"{slug}.csv", table.head, table.rows)
-    with write_whole(out / f"{slug}.md") as path:
-        path.write_text(_page(script, made, checks, names, table), encoding="utf-8")
+    write_text(out / f"{slug}.md", _page(script, made, checks, names, table))
 
 
 def _page(

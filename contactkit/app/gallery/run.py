@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...errors import ContactkitError
-from ...files.scenes import write_whole
+from ...files.scenes import write_text, write_whole
 from ...reading.arrays import read_arrays
 from ...reading.texts import from_json
 from ...studies.run import end_with_parent, one_thread
@@ -220,8 +220,7 @@ def _write_index(pages: Sequence[Script], made: Sequence[PageOutcome], out: Path
         if outcome.error:
             (out / f"{script.slug}.md").unlink(missing_ok=True)
     listed = {script.path: script for script in (*scripts(), *pages)}
-    with write_whole(out / "index.md") as path:
-        path.write_text(index(list(listed.values()), out), encoding="utf-8")
+    write_text(out / "index.md", index(list(listed.values()), out))
 
 
 def run_page(file: str, out: str = "out/gallery") -> None:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     Map = NDArray[np.float64]
     Place = tuple[float, str]
 
-__all__ = ["FrictionStress", "StressPart", "SubsurfaceStress"]
+__all__ = ["FrictionStress", "StressPart", "SubsurfaceStress", "stress_field"]
 
 _MOST = 64  # planes of one search
 _FIRST = 6  # planes of a search to begin with, down to two radii of the sharpest spot
@@ -283,6 +283,30 @@ def _sharpest(contact: SolvedContact) -> float:
     return max(radius, 0.5 * area / (nx * dx if contact.grid.along == "x" else ny * dy))
 
 
+def stress_field(effect: SubsurfaceStress, contact: SolvedContact) -> StressField:
+    """Stress in the lower body under the pressure and the tractions of a contact.
+
+    With further coefficients of friction that of their traction is kept apart.
+    """
+    friction = contact.scene.effect(FrictionTraction)
+    ratio = friction.components() if friction is not None else None
+    x, y = None, None
+    # In proportion to the pressure, tractions cost no transforms of their own; those of partial
+    # slip are not, nor those beside an attraction: there is no friction across the gap.
+    if contact.tractions is not None and (ratio is None or contact.attracted is not None):
+        (x, y), ratio = contact.tractions, None
+    return StressField(
+        Tractions(contact.grid.pixel_size, contact.pressure, x, y),
+        layers_of(contact.scene.interface.lower.elastic_stack),
+        mean=contact.grid.along or ("periodic" if contact.grid.periodic else "free"),
+        padding=effect.window,
+        reading=effect.reading,
+        friction=None if effect.coefficients else ratio,
+        drag=friction.direction_cosines if friction and effect.coefficients else None,
+        workers=contact.threads,
+    )
+
+
 class _Kept(NamedTuple):
     """What is kept of one plane."""
 
@@ -300,25 +324,10 @@ class _Planes:
     def __init__(self, effect: SubsurfaceStress, contact: SolvedContact, stack: Stack) -> None:
         friction = contact.scene.effect(FrictionTraction)
         self._effect, self._contact = effect, contact
-        ratio = friction.components() if friction is not None else None
         # With further coefficients friction is kept apart: its stress is that of one of them.
         own = friction.coefficient if friction is not None and effect.coefficients else 0.0
         self._sliding = (own, *effect.coefficients)
-        x, y = None, None
-        # In proportion to the pressure, tractions cost no transforms of their own; those of partial
-        # slip are not, nor those beside an attraction: there is no friction across the gap.
-        if contact.tractions is not None and (ratio is None or contact.attracted is not None):
-            (x, y), ratio = contact.tractions, None
-        self._field = StressField(
-            Tractions(contact.grid.pixel_size, contact.pressure, x, y),
-            layers_of(stack),
-            mean=contact.grid.along or ("periodic" if contact.grid.periodic else "free"),
-            padding=effect.window,
-            reading=effect.reading,
-            friction=None if effect.coefficients else ratio,
-            drag=friction.direction_cosines if friction and effect.coefficients else None,
-            workers=contact.threads,
-        )
+        self._field = stress_field(effect, contact)
         self._search = DepthSearch(effect.tolerance, _deepest(contact, stack))
         peak = int(np.argmax(contact.pressure))
         self._row = int(np.unravel_index(peak, contact.pressure.shape)[0])

@@ -1,6 +1,7 @@
 // The kernel of contactkit, compiled to WebAssembly (kernel/page.c). It imports nothing.
 
-const COLUMNS = ["time", "gap", "speed", "pull", "force", "static", "viscous", "limit", "cavity", "state"];
+const COLUMNS = ["time", "gap", "speed", "pull", "force", "static", "viscous", "limit", "cavity", "state", "unlimited",
+  ...Array.from({ length: 8 }, (_, i) => `law${i}`)];
 const MOST_STEPS = 20000;
 
 class Kernel {
@@ -26,15 +27,31 @@ class Kernel {
       Array.from(all.subarray(i * COLUMNS.length, (i + 1) * COLUMNS.length)));
   }
 
-  // Numbers of the scene; then variables by value reference, and the pull. Throws what is wrong.
-  begin(numbers, variables, pull) {
-    const at = this.calls.ck_page_room(numbers.length);
+  // Numbers of a model, by the calls that begin with a name.
+  fill(calls, numbers) {
+    const at = this.calls[`${calls}_room`](numbers.length);
     new Float64Array(this.calls.memory.buffer, at, numbers.length).set(numbers);
-    if (!this.calls.ck_page_open(numbers.length)) throw new Error(this.said());
+    if (!this.calls[`${calls}_open`](numbers.length)) throw new Error(this.said());
+  }
+
+  // Numbers of the scene; then variables by value reference, and the pull. Throws what is wrong.
+  load(numbers, variables, pull) {
+    this.fill("ck_page", numbers);
     this.calls.ck_page_reset(pull.force, pull.rise, pull.limit);
     for (const [reference, value] of variables)
       if (!this.calls.ck_page_set(reference, value)) throw new Error(this.said());
+  }
+
+  begin(numbers, variables, pull) {
+    this.load(numbers, variables, pull);
     if (!this.calls.ck_page_start()) throw new Error(this.said());
+  }
+
+  // Numbers of the motion so far; -1 of times of what has not happened.
+  numbers() {
+    this.calls.ck_page_numbers();
+    const [peak, peakTime, release, speed, rupture, work, viscous, still, steps, inception] = this.rows()[0];
+    return { peak, peakTime, release, speed, rupture, work, viscous, still, steps, inception };
   }
 
   // Rows of a motion to its release, and how it ended.
@@ -47,11 +64,8 @@ class Kernel {
       rows.push(...step);
       path.push(...step.slice(-2)); // its end, and just before: there a film may break
     }
-    const trouble = this.said();
-    this.calls.ck_page_numbers();
-    const [peak, peakTime, release, speed, rupture, work, viscous, still, steps] = this.rows()[0];
-    const how = { [-1]: "failed", 0: "steps", 1: "released", 2: "stuck", 3: "late" }[ended];
-    return { rows, path, how, trouble, peak, peakTime, release, speed, rupture, work, viscous, still, steps };
+    const trouble = this.said(), how = { [-1]: "failed", 0: "steps", 1: "released", 2: "stuck", 3: "late" }[ended];
+    return { rows, path, how, trouble, ...this.numbers() };
   }
 
   // Rows over the gap at one speed, with one just before the film breaks.

@@ -1,12 +1,6 @@
 // Numbers that the kernel is given, or that are read off tables: each as a function of contactkit of
 // the same name in Python, which states the error of the tables.
 
-async function unpacked(text) {
-  const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
-}
-
 // family.py: numbers of the kernel, and of validity, at values of the geometry ------------------
 
 function placeOf(slider, value) {
@@ -73,7 +67,7 @@ function worstOf(rules, logs, count, index, path, liquid, strength) {
   let scale = 1, worst = largest ? 0 : Infinity;
   for (const name in rule.liquid) scale *= (liquid[name] ?? 1) ** rule.liquid[name];
   for (const [gap, speed] of path) {
-    if (rule.opening_only && speed <= 0) continue;
+    if ((rule.opening_only && speed <= 0) || (rule.speed_power < 0 && speed === 0)) continue;
     let value = between(logs, at, count, gap) * scale * Math.abs(speed) ** rule.speed_power;
     if (rule.is_bounded) value = Math.min(value, strength * between(logs, at + count, count, gap));
     worst = largest ? Math.max(worst, value) : Math.min(worst, value);

@@ -51,6 +51,10 @@ class ContactFigures(Figures[ContactResult]):
         """Draw the map of the pressure; white where there is neither contact nor attraction."""
         return of_contact.pressure(self._owner, ax)
 
+    def pressure_close_up(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the pressure around its maximum, a quarter of the window."""
+        return of_contact.pressure_close_up(self._owner, ax)
+
     def gap(self, *, ax: Axes | None = None) -> Axes:
         """Draw the map of the gap."""
         return maps.value_map(self._owner, "gap", ax)
@@ -82,7 +86,7 @@ class ContactFigures(Figures[ContactResult]):
         depth: float | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Draw contours of the stress below the maximum pressure; see `plot.stress.below`."""
+        """Draw contours of the stress below the surface; see `plot.stress.below`."""
         return stress.below(self._owner, measure, ax, depth=depth)
 
     def stress_close_up(

@@ -35,9 +35,9 @@ class SeparationFigures(CurveFigures[SeparationResult]):
         """Draw the gap over time."""
         return separation.motion(self._owner, ax)
 
-    def forces(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the forces over the gap; hatched where a limit of the liquid acts."""
-        return separation.forces(self._owner, ax)
+    def forces(self, *, over: str = "", ax: Axes | None = None) -> Axes:
+        """Draw the forces over the gap, or over time where a limit of the liquid acts."""
+        return separation.forces(self._owner, ax, over=over)
 
     def cycles(self, *, ax: Axes | None = None) -> Axes:
         """Draw the pull over the cycles of a vibration."""

@@ -301,9 +301,6 @@ def _fastest(peers: Mapping[str, Mapping[str, Any]]) -> str:
 
 # Pictures ---------------------------------------------------------------------------------------
 
-_COLOURS = ("#1f4e79", "#c1440e", "#2a9d8f", "#e9a23b", "#6a4c93")
-_MARKS = "os^Dv"
-
 
 def draw(data: Mapping[str, Any]) -> None:
     """A picture of each half, and one of other programs."""
@@ -317,10 +314,9 @@ def _draw_half(studies: Mapping[str, Points], half: str, name: str) -> None:
 
     made, axes = plot.figure(1, 2, size=(10.5, 5.2))
     for ax, curves, title in zip(axes, _CURVES[half], _PANELS[half], strict=True):
-        looks = zip(_COLOURS, _MARKS, strict=True)
-        for (study, method, label), (colour, mark) in zip(curves, looks, strict=True):
+        for i, (study, method, label) in enumerate(curves):
             seconds, errors = _curve(studies[study], method)
-            ax.plot(seconds, errors, color=colour, marker=mark, ms=5, label=label)
+            ax.plot(seconds, errors, label=label, **plot.series(i, ms=5))
         ax.set(xscale="log", yscale="log", xlabel="CPU time [s]", ylabel="relative error")
         plot.title(ax, title)
         plot.plain_log(ax.xaxis)
@@ -333,19 +329,19 @@ def _draw_peers(rows: Iterable[Mapping[str, Any]]) -> None:
 
     listed = list(rows)[::-1]
     made, ax = plot.figure(size=(9.5, 0.32 * len(listed) + 1.4))
-    colours = dict(
-        zip(_PEERS, ("#c1440e", "#e9a23b", "#2a9d8f", "#6a4c93", "#8a8a8a"), strict=True)
-    )
+    own, *others = plot.SERIES
+    looks = dict(zip(_PEERS, others, strict=False))
     for y, row in enumerate(listed):
         ends = [row["seconds"], *(peer["seconds"] for peer in row["peers"].values())]
         ax.plot([min(ends), max(ends)], [y, y], color="0.85", lw=1.5, zorder=1)
-        ax.plot(row["seconds"], y, "o", color=_COLOURS[0], ms=6, zorder=3)
+        ax.plot(row["seconds"], y, "o", color=own[0], ms=6, zorder=3)
         for name, peer in row["peers"].items():
-            fill = colours[name] if peer["is_good"] else "white"
-            ax.plot(peer["seconds"], y, "s", color=colours[name], mfc=fill, ms=5.5, zorder=2)
-    ax.plot([], [], "o", color=_COLOURS[0], label="contactkit")
-    for name, colour in colours.items():
-        ax.plot([], [], "s", color=colour, label=name)
+            colour, _, mark = looks[name]
+            fill = colour if peer["is_good"] else "white"
+            ax.plot(peer["seconds"], y, mark, color=colour, mfc=fill, ms=6, zorder=2)
+    ax.plot([], [], "o", color=own[0], label="contactkit")
+    for name, (colour, _, mark) in looks.items():
+        ax.plot([], [], mark, color=colour, label=name)
     ax.plot([], [], "s", color="0.4", mfc="white", label="open: not accurate enough")
     ax.set_yticks(range(len(listed)), [f"{row['what']}, {row['n']}" for row in listed], fontsize=9)
     ax.set(xscale="log", xlabel="CPU time [s]")

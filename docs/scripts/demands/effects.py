@@ -131,12 +131,24 @@ def _section(kind: Any, found: Mapping[str, Any]) -> str:
     )
 
 
+def _change(ratio: float) -> str:
+    """What the effect adds, in per cent or as a factor."""
+    if ratio >= 1.95:
+        return f"{ratio:.0f} times" if ratio > 9.5 else f"{ratio:.2g} times"
+    percent = round(100.0 * (ratio - 1.0))
+    return f"{percent:+d} %" if percent else "the same"
+
+
 def draw(data: Mapping[str, Any]) -> None:
     """Seconds and memory of each scene with the effect and without it."""
     from contactkit.plot import style as plot
 
     kinds = [kind for registry in KINDS.values() for kind in registry][::-1]
-    made, axes = plot.figure(1, 2, size=(10.0, 6.6), sharey=True)
+    made, axes = plot.figure(1, 2, size=(10.0, 8.4), sharey=True)
+    first, second = (colour for colour, *_ in plot.SERIES[1:3])
+    with_it = {"ls": "none", "marker": "o", "color": first, "ms": 5}
+    without = {"ls": "none", "marker": "s", "color": second, "ms": 4.5, "mfc": "white"}
+    across = plot.Axes.get_yaxis_transform
     shown = {"seconds": "CPU time [s]", "memory": "peak memory [MiB]"}
     for ax, (key, label) in zip(axes, shown.items(), strict=True):
         for y, kind in enumerate(kinds):
@@ -144,13 +156,14 @@ def draw(data: Mapping[str, Any]) -> None:
             high = found["with"][key]
             if found["without"] is not None:
                 low = found["without"][key]
-                ax.plot([low, high], [y, y], color="0.75", lw=2.0, zorder=1)
-                ax.plot(low, y, "o", color="#2a9d8f", mfc="white", zorder=2)
-            ax.plot(high, y, "o", color="#1f4e79", ms=5, zorder=3)
+                ax.plot([low, high], [y - 0.18, y + 0.18], color="0.75", lw=1.5, zorder=1)
+                ax.plot(low, y - 0.18, zorder=2, **without)
+                ax.text(1.01, y, _change(high / low), fontsize=8, va="center", transform=across(ax))
+            ax.plot(high, y + 0.18, zorder=3, **with_it)
         ax.set(xscale="log", xlabel=label)
         ax.grid(False, axis="y")
-    axes[0].plot([], [], "o", color="#1f4e79", ms=5, label="with the effect")
-    axes[0].plot([], [], "o", color="#2a9d8f", mfc="white", label="without it")
+    axes[0].plot([], [], label="with the effect", **with_it)
+    axes[0].plot([], [], label="without it", **without)
     axes[0].set_yticks(range(len(kinds)), [kind.name for kind in kinds], fontsize=9)
     plot.shared_legend(made, axes[0])
     picture(made, NAME)

@@ -15,6 +15,7 @@ __all__ = ["NAME", "draw", "measure", "page"]
 
 NAME = "hard-cases"
 _ROOMS = {"contact": "Contact", "separation": "Separation"}
+_EXACT = 1e-19  # where an error of zero is drawn, apart from that of round-off
 _NO_ANSWER = 1e2  # where the picture shows a method without an answer
 
 
@@ -65,20 +66,23 @@ def draw(data: Mapping[str, Any]) -> None:
     made, ax = plot.figure(size=(8.6, 6.2))
     rows = list(HARD_CASES.items())[::-1]
     labels = []
+    own, other = plot.SERIES[1][0], plot.SERIES[2][0]
     for y, (key, case) in enumerate(rows):
         one = data["cases"][key]
-        ours = max(one["ours"], 1e-16)
+        ours = max(one["ours"], _EXACT)
         naive = _NO_ANSWER if one["naive"] is None else one["naive"]
         ax.plot([ours, naive], [y, y], color="0.8", lw=1.2, zorder=1)
-        ax.plot(ours, y, "o", color="#1f4e79", label="contactkit" if y == 0 else None)
+        ax.plot(ours, y, "o", color=own, label="contactkit" if y == 0 else None)
         mark, name = ("x", "naive method: no answer") if one["naive"] is None else ("s", "")
-        ax.plot(naive, y, mark, color="#c1440e", ms=7 if name else 5)
+        ax.plot(naive, y, mark, color=other, ms=7 if name else 5)
         labels.append(case.title)
-    ax.plot([], [], "s", color="#c1440e", ms=5, label="naive method")
-    ax.plot([], [], "x", color="#c1440e", ms=7, label="naive method: no answer")
+    ax.plot([], [], "s", color=other, ms=5, label="naive method")
+    ax.plot([], [], "x", color=other, ms=7, label="naive method: no answer")
     ax.set_yticks(range(len(labels)), labels, fontsize=8.5)
-    ax.set(xscale="log", xlim=(3e-17, 1e3), xlabel="relative error")
-    ax.set_xticks([10.0**e for e in range(-16, 1, 4)])
+    ax.set(xscale="log", xlim=(0.2 * _EXACT, 1e3), xlabel="relative error")
+    powers = range(-16, 1, 4)
+    names = ["exact", *(f"$10^{{{e}}}$" for e in powers)]
+    ax.set_xticks([_EXACT, *(10.0**e for e in powers)], names)
     ax.grid(False, axis="y")
     plot.shared_legend(made, ax)
     picture(made, NAME)

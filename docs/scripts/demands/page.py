@@ -126,5 +126,5 @@ def picture(made: Any, name: str) -> None:
 
     path = plot.save(made, SHOWN / name)
     with Image.open(path) as image:
-        small = image.convert("RGB").quantize(COLOURS)
+        small = image.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE, 1)
     small.save(path, optimize=True)

@@ -141,7 +141,9 @@ def save_figure(figure: Figure, path: Path) -> None:
     with io.BytesIO() as raw:
         figure.savefig(raw, format="png", dpi=DPI)
         with Image.open(raw) as image:
-            image.convert("RGB").quantize(COLOURS).save(path, optimize=True)
+            image.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE, 1).save(
+                path, optimize=True
+            )
 
 
 def write(name: str) -> None:

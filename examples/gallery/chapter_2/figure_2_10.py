@@ -10,7 +10,7 @@ import contactkit as ck
 from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
-from contactkit.gallery.chapter_2.curve_figure import draw_panel, labelled
+from contactkit.gallery.chapter_2.curve_figure import draw_over_first, draw_panel, labelled
 from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
 
@@ -56,21 +56,29 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
 
 def draw(data: Data) -> tuple[plot.Figure, plot.Figure]:
     """Three numbers for three surfaces; the displacement."""
-    figure, axes = plot.figure(3, 3, size=(8.6, 7.4), sharex=True)
+    figure, axes = plot.figure(5, 3, size=(8.6, 11.0), sharex=True)
     labels = labelled(rough.MEANING)
-    for row, name in zip(axes, COLUMNS[:3], strict=True):
-        for ax, values, surface in zip(row, data[name], rough.SURFACES, strict=True):
+    for row, name in zip(axes[[0, 2, 4]], COLUMNS[:3], strict=True):
+        for ax, values in zip(row, data[name], strict=True):
             draw_panel(ax, LOADS, name, values, labels)
-            ax.set(xlabel="", ylabel="" if ax is not row[0] else ax.get_ylabel())
-            if name == "max_pressure":
-                ax.set_title(str(surface), fontsize=9, loc="left")
-    for ax in axes[-1]:
-        ax.set_xlabel("$p_n/E_3$")
+    for row, name in zip(axes[[1, 3]], COLUMNS[:2], strict=True):
+        for ax, values in zip(row, data[name], strict=True):
+            draw_over_first(ax, LOADS, values, labels)
+            ax.set_ylabel(f"{'pressure' if name == COLUMNS[0] else 'area'} over that of I")
+    for row in axes:
+        for ax in row[1:]:
+            ax.set_ylabel("")
+        for ax in row if row is not axes[-1] else ():
+            ax.set_xlabel("")
+    for ax, surface in zip(axes[0], rough.SURFACES, strict=True):
+        ax.set_title(str(surface), fontsize=9, loc="left")
     plot.shared(figure, axes[0, 0])
-    second, ax = plot.figure(size=(6.5, 4.2))
-    draw_panel(ax, LOADS, "max_displacement", data["max_displacement"][0], labels)
-    ax.set_title(str(rough.SURFACES[0]), fontsize=9, loc="left")
-    ax.legend(fontsize=8)
+    second, (left, right) = plot.figure(1, 2, size=(8.2, 3.8))
+    moved = data["max_displacement"][0]
+    draw_panel(left, LOADS, "max_displacement", moved, labels)
+    draw_over_first(right, LOADS, moved, labels)
+    left.set_title(str(rough.SURFACES[0]), fontsize=9, loc="left")
+    plot.shared(second, left)
     return figure, second
 
 

@@ -60,7 +60,7 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
 def draw(data: Data) -> list[plot.Figure]:
     """A figure for each load."""
     titles = [f"{name}:\n{text}" for name, text in rough.MEANING.items()]
-    shown = ("maps", "maxima", "depths")
+    shown = ("maps", "window", "maxima", "depths")
     return [map_figure({k: data[k][:, i] for k in shown}, titles, CROP) for i in range(len(LOADS))]
 
 

@@ -8,7 +8,7 @@ import contactkit as ck
 from contactkit.app.gallery.page import Check, Data, Page
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
-from contactkit.gallery.chapter_2.curve_figure import draw_panel, labelled
+from contactkit.gallery.chapter_2.curve_figure import draw_over_first, draw_panel, labelled
 from contactkit.gallery.chapter_2.stress_maps import map_figure, maps, maxima, stacked
 from contactkit.gallery.second_method.anchors import Case, Solved, agree, pressed
 from contactkit.plot import gallery as plot
@@ -68,10 +68,12 @@ def _cases(sampling: rough.Sampling) -> list[Solved]:
 def draw(data: Data) -> tuple[plot.Figure, plot.Figure]:
     """Maps; load curves."""
     titles = [f"{name}:\n{text}" for name, text in rough.MEANING.items()]
-    figure, axes = plot.figure(1, 3, size=(8.6, 3.6))
-    for ax, name in zip(axes, COLUMNS, strict=True):
-        draw_panel(ax, LOADS, name, data[name], labelled(rough.MEANING))
-    plot.shared(figure, axes[0])
+    figure, axes = plot.figure(2, 2, size=(8.2, 6.2))
+    labels = labelled(rough.MEANING)
+    for column, name in zip(axes.T, COLUMNS[:2], strict=True):  # nothing yields
+        draw_panel(column[0], LOADS, name, data[name], labels)
+        draw_over_first(column[1], LOADS, data[name], labels)
+    plot.shared(figure, axes[0, 0])
     return map_figure(data, titles, CROP), figure
 
 

@@ -76,7 +76,7 @@ def draw(data: Data) -> tuple[plot.Figure, plot.Figure]:
     """Maps; load curves with the loads of first yield."""
     figure, axes = plot.figure(1, 3, size=(8.6, 3.6))
     for ax, name in zip(axes, COLUMNS, strict=True):
-        draw_panel(ax, LOADS, name, data[name], LABELS)
+        draw_panel(ax, LOADS, name, data[name], LABELS, range(len(LABELS)))
     for i, loads in enumerate(first_yield(data)[:2]):
         colour = plot.series(i)["color"]
         axes[0].axvline(np.median(loads), color=colour, lw=0.9, ls=":")

@@ -8,7 +8,7 @@ import contactkit as ck
 from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
-from contactkit.gallery.chapter_2.curve_figure import labelled
+from contactkit.gallery.chapter_2.curve_figure import draw_runs, labelled
 from contactkit.gallery.chapter_2.stress_maps import NAMES, map_figure, maps, maxima, stacked
 from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
@@ -67,8 +67,7 @@ def draw(data: Data) -> tuple[plot.Figure, plot.Figure]:
     figure, axes = plot.figure(2, 3, size=(8.6, 5.6), sharex=True)
     for row, height, values in zip(axes, HEIGHTS, data["stress"], strict=True):
         for k, (ax, name) in enumerate(zip(row, MEASURES, strict=True)):
-            for i, label in enumerate(labelled(rough.MEANING)):
-                plot.band(ax, FRICTIONS, values[i][..., k] / 1e9, i, label)
+            draw_runs(ax, FRICTIONS, values[..., k] / 1e9, labelled(rough.MEANING))
             ax.set(ylabel=f"max. {name} [GPa]", ylim=(0.0, None))
             ax.set_title(rf"$h_1 = h_2 = {height:g}\,\sigma$", fontsize=9, loc="left")
     for ax in axes[-1]:

@@ -8,7 +8,7 @@ import contactkit as ck
 from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
-from contactkit.gallery.chapter_2.curve_figure import draw_panel, labelled
+from contactkit.gallery.chapter_2.curve_figure import draw_over_first, draw_panel, labelled
 from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
 
@@ -76,13 +76,15 @@ def _second(sampling: rough.Sampling, pull: float) -> np.ndarray:
 
 def draw(data: Data) -> plot.Figure:
     """Relative force of thick and thin layers, force, and with the film added to the load."""
-    figure, axes = plot.figure(2, 2, size=(8.2, 6.2))
+    figure, axes = plot.figure(2, 3, size=(10.0, 6.2))
     labels = labelled(rough.MEANING)
     name = "relative_meniscus_force"
     draw_panel(axes[0, 0], LOADS, name, data[name][0], labels)
     draw_panel(axes[0, 1], LOADS, name, data[name][1], labels)
-    draw_panel(axes[1, 0], LOADS, "meniscus_force", data["meniscus_force"][0], labels)
-    ax = axes[1, 1]
+    draw_panel(axes[0, 2], LOADS, "meniscus_force", data["meniscus_force"][0], labels)
+    for ax, values in zip(axes[1], data[name], strict=False):
+        draw_over_first(ax, LOADS, values, labels)
+    ax = axes[1, 2]
     draw_panel(ax, LOADS, name, data[name][0, :1], ["I, reported only"])
     plot.band(ax, LOADS, data[f"consistent_{name}"][0], 2, "I, adds to the load")
     plot.log_above_zero(ax, [data[name][0, 0], data[f"consistent_{name}"][0]])
@@ -91,6 +93,8 @@ def draw(data: Data) -> plot.Figure:
         "$h = 10\\,\\sigma$",
         "$h = \\sigma$",
         "$h = 10\\,\\sigma$",
+        "$h = 10\\,\\sigma$, against I",
+        "$h = \\sigma$, against I",
         "structure I, film reported or added",
     )
     plot.letters(axes.ravel(), titles)

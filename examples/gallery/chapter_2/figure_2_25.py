@@ -8,7 +8,7 @@ import contactkit as ck
 from contactkit.app.gallery.page import Check, Data, Page, Table
 from contactkit.app.gallery.run import run_page
 from contactkit.gallery.chapter_2 import rough_contact as rough
-from contactkit.gallery.chapter_2.curve_figure import draw_panel, labelled
+from contactkit.gallery.chapter_2.curve_figure import draw_over_first, draw_panel, labelled
 from contactkit.gallery.second_method.anchors import Case, agree, pressed
 from contactkit.plot import gallery as plot
 
@@ -51,15 +51,16 @@ def compute(draft: bool = False) -> dict[str, np.ndarray]:
 
 def draw(data: Data) -> plot.Figure:
     """A panel for each surface, on one scale."""
-    figure, axes = plot.figure(1, 3, size=(8.6, 3.8))
-    values = data["relative"]
-    for ax, runs, surface in zip(axes, values, rough.SURFACES, strict=True):
-        draw_panel(ax, LOADS, NAME, runs, labelled(rough.MEANING))
-        ax.set_title(str(surface), fontsize=8, loc="left")
-        ax.set_ylim(0.5 * values.min(), 2.0 * values.max())
-    for ax in axes[1:]:
+    figure, axes = plot.figure(2, 3, size=(9.0, 6.2), sharey="row")
+    values, labels = data["relative"], labelled(rough.MEANING)
+    for column, runs, surface in zip(axes.T, values, rough.SURFACES, strict=True):
+        draw_panel(column[0], LOADS, NAME, runs, labels)
+        draw_over_first(column[1], LOADS, runs, labels)
+        column[0].set_title(str(surface), fontsize=9, loc="left")
+        column[0].set_ylim(0.5 * values.min(), 2.0 * values.max())
+    for ax in axes[:, 1:].ravel():
         ax.set_ylabel("")
-    plot.shared(figure, axes[0])
+    plot.shared(figure, axes[0, 0])
     return figure
 
 

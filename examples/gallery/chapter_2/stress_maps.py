@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from scipy.ndimage import label
 
 import contactkit as ck
 from contactkit.analyses.subsurface import MEASURES, MeasureName, maximum_planes, stress_below
@@ -18,7 +20,12 @@ ROWS = (
     "tension,\nits plane",
     r"$|\sigma_{xz}|$," + "\nits plane",
 )
-LABEL = {"fontsize": 7, "va": "top", "bbox": {"fc": "#00204d", "ec": "none", "pad": 1.0}}
+LABEL = {
+    "fontsize": 7.5,
+    "va": "top",
+    "color": "w",
+    "bbox": {"fc": "#00204d", "ec": "none", "pad": 1.0, "alpha": 0.8},
+}
 NAMES: tuple[MeasureName, ...] = ("von_mises", "tension", "sigma_xz")
 
 
@@ -31,7 +38,10 @@ def cropped(values: np.ndarray, pressure: np.ndarray, pixels: int) -> np.ndarray
 
 
 def maps(result: ck.ContactResult, pixels: int, friction: float = 0.0) -> dict[str, np.ndarray]:
-    """Maps (5, n, n) [Pa] in the order of `ROWS`; maxima (3,) [Pa] and their depths (3,) [m]."""
+    """Maps (5, n, n) [Pa] in the order of `ROWS`; maxima (3,) [Pa] and their depths (3,) [m].
+
+    `window` is the pressure in the whole window, with its maximum in the middle.
+    """
     traction = ck.FrictionTraction(coefficient=friction) if friction else None
     worst = maximum_planes(result, NAMES, friction=traction)
     top = stress_below(result, ck.SubsurfaceStress(depths=(0.0,), keep="planes"), traction)
@@ -40,6 +50,7 @@ def maps(result: ck.ContactResult, pixels: int, friction: float = 0.0) -> dict[s
     shown = [result.pressure, surface, *(worst[name].values for name in NAMES)]
     return {
         "maps": np.array([cropped(one, result.pressure, pixels) for one in shown]),
+        "window": cropped(result.pressure, result.pressure, len(result.pressure)),
         "maxima": np.array([worst[name].maximum.value for name in NAMES]),
         "depths": np.array([worst[name].maximum.z for name in NAMES]),
     }
@@ -61,31 +72,89 @@ def maxima(result: ck.ContactResult, coefficients: Sequence[float]) -> np.ndarra
 def map_figure(data: Data, titles: Sequence[str], width: float) -> plot.Figure:
     """Draw maps of several cases: one column each, a colour scale for each row.
 
-    `width` is that of the squares [m]. Stress is on a logarithmic scale, as in the source.
+    The first row is the whole window with a square around the highest pressure. The others show
+    the square, as wide as the contact in it is seen, with the edge of that contact. `width` is that
+    of the maps [m].
     """
-    values = data["maps"] / 1e6  # [MPa]
+    values, window = data["maps"] / 1e9, data["window"] / 1e9  # [GPa]
+    pixel = 1e6 * width / values.shape[-1]  # [um]
+    near = _near(values[:, 0] > 0.0)
+    values = values[..., near, near]
     figure, axes = plot.figure(
-        5, len(titles), size=(1.25 * len(titles) + 1.9, 7.0), sharex=True, sharey=True
+        1 + len(ROWS), len(titles), size=(1.55 * len(titles) + 1.5, 10.0), squeeze=False
     )
-    extent = (0.0, width * 1e6, 0.0, width * 1e6)
-    for row, name in enumerate(ROWS):
+    for column, ax in enumerate(axes[0]):
+        _whole(ax, window[column] > 0.0, values.shape[-1], pixel)
+        ax.set_title(titles[column], fontsize=9, loc="left")
+    for row in range(len(ROWS)):
         top = float(values[:, row].max())
-        style = {"vmin": 0.0, "vmax": top} if row == 0 else {"norm": plot.log_norm(top)}
-        for column, ax in enumerate(axes[row]):
-            image = ax.imshow(
-                values[column, row], origin="lower", extent=extent, cmap="cividis", **style
-            )
-            ax.grid(visible=False)
-            best = data["maxima"][column, row - 2] / 1e6 if row >= 2 else values[column, row].max()
-            text = f"{best:.0f}"
+        for column, ax in enumerate(axes[1 + row]):
+            shown = values[column, row]
+            image = _square(ax, shown, top, values[column, 0] > 0.0, pixel)
+            text = f"max {shown.max():.3g} GPa"
             if row >= 2:
-                text += f"; {data['depths'][column, row - 2] * 1e9:.0f} nm"
-            ax.text(0.04, 0.94, text, transform=ax.transAxes, color="w", **LABEL)
-        axes[row, 0].set_ylabel(name, fontsize=8)
-        figure.colorbar(image, ax=axes[row], shrink=0.85, aspect=12).set_label("MPa", fontsize=8)
-    for ax, title in zip(axes[0], titles, strict=True):
-        ax.set_title(title, fontsize=8, loc="left")
-    for ax in axes[-1]:
-        ax.set_xlabel("x [um]", fontsize=8)
-        ax.set_xticks([0.0, 0.5 * width * 1e6])
+                best, depth = (data[name][column, row - 2] for name in ("maxima", "depths"))
+                if shown.max() < 0.99e-9 * best:
+                    text += f"\n{best / 1e9:.3g} in the window"
+                text += f"\n{depth * 1e9:.0f} nm deep"
+            ax.text(0.04, 0.96, text, transform=ax.transAxes, **LABEL)
+        bar = figure.colorbar(image, ax=axes[1 + row], shrink=0.9, aspect=14)
+        bar.set_label("GPa", fontsize=9)
+    for row, name in zip(axes, ("contact,\nwhole window", *ROWS), strict=True):
+        row[0].set_ylabel(f"{name}\ny [um]", fontsize=9)
+        for ax in row[1:]:
+            ax.tick_params(labelleft=False)
+    for row in (axes[0], axes[-1]):
+        for ax in row:
+            ax.set_xlabel("x [um]", fontsize=9)
+            ax.tick_params(labelbottom=True)
     return figure
+
+
+def _near(contact: np.ndarray) -> slice:
+    """Rows and columns of maps that hold the spots in their middle, and as much around them."""
+    n = contact.shape[-1]
+    reach = max(_reach(one) for one in contact)
+    half = min(3 * reach, n // 2)
+    return slice(n // 2 - half, n // 2 + half + 1)
+
+
+def _reach(contact: np.ndarray) -> int:
+    """How many pixels the spot in the middle of a map reaches from there."""
+    n = len(contact)
+    spots, _ = label(contact)
+    place = np.argwhere(spots == spots[n // 2, n // 2])
+    return int(np.abs(place - n // 2).max())
+
+
+def _whole(ax: plot.Axes, contact: np.ndarray, shown: int, pixel: float) -> None:
+    """Contact in the window as dots, which are seen where pixels are not, and the square."""
+    half, edge = 0.5 * len(contact) * pixel, 0.5 * shown * pixel
+    rows, columns = np.nonzero(contact)
+    ax.plot(
+        (columns + 0.5) * pixel - half,
+        (rows + 0.5) * pixel - half,
+        "s",
+        color="#0072b2",
+        ms=0.9,
+        mew=0.0,
+    )
+    x, y = (-edge, edge, edge, -edge, -edge), (-edge, -edge, edge, edge, -edge)
+    ax.plot(x, y, color="#d55e00", lw=1.2)
+    ax.set(aspect="equal", xlim=(-half, half), ylim=(-half, half))
+    ax.tick_params(labelsize=8)
+    ax.grid(visible=False)
+
+
+def _square(
+    ax: plot.Axes, values: np.ndarray, top: float, contact: np.ndarray, pixel: float
+) -> Any:
+    """A map around the highest pressure, and the edge of the contact."""
+    edge = 0.5 * len(values) * pixel
+    around = (-edge, edge, -edge, edge)
+    look: dict[str, Any] = {"origin": "lower", "extent": around}
+    image = ax.imshow(values, cmap="cividis", vmin=0.0, vmax=top, interpolation="nearest", **look)
+    ax.contour(contact, levels=[0.5], colors="#ff9d5c", linewidths=0.7, **look)
+    ax.tick_params(labelsize=8, labelbottom=False)
+    ax.grid(visible=False)
+    return image

@@ -73,7 +73,7 @@ def draw(data: dict[str, Any]) -> Figure:
     panels[0].set(xlabel="relative humidity [%]", ylabel="meniscus force [mN]", ylim=(0.0, 2.0))
     panels[1].set(xscale="log", xlabel="100 % less relative humidity [%]")
     panels[1].invert_xaxis()
-    panels[0].annotate("4 pi R gamma", (6.0, _saturated() * 1e3 + 0.02), fontsize=9)
+    panels[0].annotate(r"$4\pi R\gamma$", (6.0, _saturated() * 1e3 + 0.02), fontsize=9)
     plot.legend(panels[1], fontsize=8, loc="lower right")
     letters(list(panels), ["over the humidity", "towards saturation"])
     return figure

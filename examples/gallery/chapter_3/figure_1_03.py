@@ -81,9 +81,11 @@ def draw(data: dict[str, Any]) -> Figure:
         right.plot(
             data["times"][i], value / data["pulls"], look["marker"], color=look["color"], label=name
         )
-    right.plot(fine, value * fine / impulse, color="0.4", lw=1.0, label="t/(6 pi R^2 ln(D1/D0))")
+    right.plot(
+        fine, value * fine / impulse, color="0.4", lw=1.0, label=r"$t/(6\pi R^2\,\ln(D_1/D_0))$"
+    )
     left.set(xscale="log", yscale="log", xlabel="time of separation [s]", ylabel="force [N]")
-    right.set(xlabel="time of separation [s]", ylabel="viscosity over force [Pa.s/N]")
+    right.set(xlabel="time of separation [s]", ylabel="viscosity per newton of pull [Pa·s/N]")
     plot.legend(left, fontsize=8)
     plot.legend(right, fontsize=8)
     letters([left, right], ["marks: simulated, lines: impulse over time", "one line for both"])

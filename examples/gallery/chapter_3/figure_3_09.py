@@ -78,7 +78,11 @@ def draw(data: dict[str, Any]) -> Figure:
                         shown = meniscus_number_3_42(force, RADIUS, GAMMA, *angles(pair))
                     ax.plot(delta / nm, shown, style, color=color, lw=1.4)
             ax.set(xscale="log", xlabel="separation [nm]", xlim=(0.02, 300.0))
-            ax.set_ylabel("F/(pi x gamma (c1 + c2))" if is_number else "meniscus force [nN]")
+            ax.set_ylabel(
+                r"$F/(\pi x\gamma\,(\cos\theta_1 + \cos\theta_2))$"
+                if is_number
+                else "meniscus force [nN]"
+            )
             if pair in PAIRS[:2] and not is_number:
                 ax.set(yscale="log", ylim=(3.0, 3000.0))
             ax.axhline(0.0, color="0.5", lw=0.6)
@@ -90,7 +94,11 @@ def draw(data: dict[str, Any]) -> Figure:
     panels[2, 0].set_ylim(0.0, 60.0)
     letters(
         list(panels.flat),
-        [*(f"{p[0]}/{p[1]} deg" for p in PAIRS), "60/60, Eq. (3.42)", "120/120, Eq. (3.42)"],
+        [
+            *(f"{p[0]}/{p[1]} deg" for p in PAIRS),
+            "60/60 deg, Eq. (3.42)",
+            "120/120 deg, Eq. (3.42)",
+        ],
     )
     styles = [("exact", "-"), ("arc, neck plane", "--"), ("printed (3.11)", ":")]
     heights_legend(panels[0, 0], styles, loc="lower left")

@@ -46,7 +46,7 @@ PAGE = Page(
 )
 
 
-_MEAN = "impulse so far over t_s [nN]"
+_MEAN = "impulse so far over $t_s$ [nN]"
 _FILMS = (2e-9, 3e-9, 4e-9, 5e-9, 6e-9)  # of the caption once more, for the second method
 
 
@@ -150,7 +150,7 @@ def _overview(data: dict[str, Any]) -> Figure:
     mean.set(yscale="log", ylabel=_MEAN, ylim=(0.3, 1000.0))
     number.set(ylabel="number of Eq. (3.43)", ylim=(0.0, 1.05))
     force.set(yscale="log", ylabel="viscous force [nN]", ylim=(1e-3, 3e5))
-    at_break.set(yscale="log", ylabel="impulse over t_s at rupture [nN]", xlabel="h0 [nm]")
+    at_break.set(yscale="log", ylabel="impulse over $t_s$ at rupture [nN]", xlabel="$h_0$ [nm]")
     at_break.plot([], [], "-", color="0.2", label="volume kept, exact rupture")
     at_break.plot([], [], ":", color="0.2", label="printed, closed neck")
     plot.plain_log(at_break.yaxis)

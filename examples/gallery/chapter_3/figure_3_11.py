@@ -93,11 +93,11 @@ def draw(data: dict[str, Any]) -> Figure:
         for ax in (top, middle):
             ax.set(xscale="log", xlim=(0.01, 200.0), xlabel="separation [nm]")
         top.set(ylabel="meniscus force [nN]", ylim=(0.0, 62.0))
-        middle.set(ylabel="impulse so far over t_s [nN]", ylim=(0.0, None))
-        _scale(top, GAMMA * RADIUS, "F / (gamma R)")
-        _scale(middle, VISCOSITY * RADIUS**2 / TIME, "t_s F / (eta R^2)")
+        middle.set(ylabel="impulse so far over $t_s$ [nN]", ylim=(0.0, None))
+        _scale(top, GAMMA * RADIUS, r"$F/(\gamma R)$")
+        _scale(middle, VISCOSITY * RADIUS**2 / TIME, r"$t_s F/(\eta R^2)$")
     heights_legend(
-        panels[0, 0], [("exact", "-"), ("arc", "--"), ("printed (3.12)", ":")], symbol="s0"
+        panels[0, 0], [("exact", "-"), ("arc", "--"), ("printed (3.12)", ":")], symbol="$s_0$"
     )
     for cut, style in zip(CUTS, ("-", "--"), strict=True):
         panels[1, 0].plot([], [], style, color="0.2", label=f"from a gap of {cut / nm:g} nm")
@@ -108,19 +108,19 @@ def draw(data: dict[str, Any]) -> Figure:
         look = {"ls": line, "color": color, "marker": sign, "ms": 4, "mfc": "none"}
         left.plot(starts, curve[:, 0] / curve[:, -1], **look, markevery=8, label=name)
     left.axhline(1.0, color="0.5", lw=0.8)
-    left.set(xlabel="gap at the start D0 [nm]", ylabel="force of s0 = 2 nm over that of 6 nm")
+    left.set(xlabel="gap at the start $D_0$ [nm]", ylabel="force of $s_0$ = 2 nm over that of 6 nm")
     plot.legend(left, fontsize=8)
     for i, color in enumerate(SHADES):
         right.plot(starts, data["at_start"][0][:, i] / nm, color=color)
         right.plot(starts, data["at_start"][2][:, i] / nm, ":", color=color)
-    right.set(xlabel="gap at the start D0 [nm]", ylabel="force at the start [nN]", ylim=(0, 62))
+    right.set(xlabel="gap at the start $D_0$ [nm]", ylabel="force at the start [nN]", ylim=(0, 62))
     letters(
         list(panels.flat),
         [
-            "meniscus, D0 = 0",
-            "meniscus, D0 = 1 nm",
-            "viscous, D0 = 0",
-            "viscous, D0 = 1 nm",
+            "meniscus, $D_0$ = 0",
+            "meniscus, $D_0$ = 1 nm",
+            "viscous, $D_0$ = 0",
+            "viscous, $D_0$ = 1 nm",
             "where a lower film pulls harder",
             "forces at the start (colours as above)",
         ],

@@ -120,13 +120,13 @@ def draw(data: dict[str, Any]) -> Figure:
                 )
     for ax in (force, viscous):
         ax.axvline(90.0, color="0.5", lw=0.8)
-        ax.set(xlabel="theta1 [deg]", xticks=range(0, 181, 30))
-        ax.text(45.0, 0.93, "theta2 = 60 deg", transform=ax.get_xaxis_transform(), ha="center")
+        ax.set(xlabel=r"$\theta_1$ [deg]", xticks=range(0, 181, 30))
+        ax.text(45.0, 0.93, r"$\theta_2$ = 60 deg", transform=ax.get_xaxis_transform(), ha="center")
         ax.text(135.0, 0.93, "120 deg", transform=ax.get_xaxis_transform(), ha="center")
     force.axhline(0.0, color="0.5", lw=0.6)
     force.set(ylabel="meniscus force [nN]", ylim=(-1900.0, 2300.0))
     heights_legend(force, [("exact", "-"), ("printed (3.11)", ":")], loc="lower left")
-    viscous.set(yscale="log", ylabel="impulse over t_s at rupture [nN]", ylim=(8.0, 1100.0))
+    viscous.set(yscale="log", ylabel="impulse over $t_s$ at rupture [nN]", ylim=(8.0, 1100.0))
     plot.plain_log(viscous.yaxis)
     for label, style in (("volume kept, exact rupture", "-"), ("printed (3.19)", ":")):
         viscous.plot([], [], style, color="0.2", label=label)
@@ -141,22 +141,22 @@ def draw(data: dict[str, Any]) -> Figure:
     for ax, values in zip((flat, printed), data["viscous_map"] / nm, strict=True):
         _draw_viscous(figure, ax, degrees, values)
     for ax in (both, flat, printed):
-        ax.set(xlabel="theta2 [deg]", ylabel="theta1 [deg]", aspect="equal")
+        ax.set(xlabel=r"$\theta_2$ [deg]", ylabel=r"$\theta_1$ [deg]", aspect="equal")
         ax.set(xticks=range(0, 181, 60), yticks=range(0, 181, 60))
     for i, color in enumerate(SHADES):
         curve = data["near"][i]
         small.plot(data["small"], curve / curve[0], ":", color=color)
         top = int(np.argmax(curve))
         small.plot(data["small"][top], curve[top] / curve[0], "o", color=color, ms=4)
-    small.set(xlabel="theta1 = theta2 [deg]", ylabel="Eq. (3.11) over its value at 0 deg")
+    small.set(xlabel=r"$\theta_1 = \theta_2$ [deg]", ylabel="Eq. (3.11) over its value at 0 deg")
     letters(
         list(panels.flat),
         [
             "one angle fixed",
             "one angle fixed",
-            "meniscus, h0 = 2 nm",
-            "viscous, h0 = 2 nm",
-            "viscous as printed, h0 = 2 nm",
+            "meniscus, $h_0$ = 2 nm",
+            "viscous, $h_0$ = 2 nm",
+            "viscous as printed, $h_0$ = 2 nm",
             "maximum of the printed force",
         ],
     )
@@ -171,7 +171,7 @@ def _draw_viscous(figure: Figure, ax: Any, degrees: Any, values: Any) -> None:
     drawn = ax.contourf(degrees, degrees, percent, extend="min", **style)
     lines = ax.contour(degrees, degrees, percent, [99.0, 99.9], colors="k", linewidths=0.7)
     ax.clabel(lines, fontsize=8, fmt="%g")
-    text = f"impulse over t_s, % of {np.nanmax(values):.1f} nN"
+    text = f"impulse over $t_s$, % of {np.nanmax(values):.1f} nN"
     figure.colorbar(drawn, ax=ax, label=text, ticks=levels)
 
 

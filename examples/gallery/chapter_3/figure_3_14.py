@@ -100,10 +100,10 @@ def draw(data: dict[str, Any]) -> Figure:
             look = {"marker": sign, "color": color, "mfc": "none", "ms": 4}
             right.plot(data["times"] / us, right_area, **look)
             right.plot(data["times"] / us, printed, ":", **look)
-    left.set(xscale="log", yscale="log", xlabel="meniscus area [um2]", ylabel="force [nN]")
+    left.set(xscale="log", yscale="log", xlabel="meniscus area [µm²]", ylabel="force [nN]")
     heights_legend(left, [("meniscus", "-"), ("viscous, mean over 0.1 us", "--")], loc="upper left")
     right.set(xscale="log", yscale="log", xlabel="separation time [us]")
-    right.set_ylabel("critical area [um2]")
+    right.set_ylabel("critical area [µm²]")
     for label, style in (
         ("60/60 deg", "o"),
         ("0/60 deg", "s"),
@@ -112,7 +112,7 @@ def draw(data: dict[str, Any]) -> Figure:
     ):
         right.plot([], [], style, color="0.2", mfc="none", label=label)
     plot.legend(right, fontsize=8, loc="upper left")
-    letters(list(panels), ["60/60 deg, t_s = 0.1 us", "equal forces, h0 = 2 and 6 nm"])
+    letters(list(panels), ["60/60 deg, $t_s$ = 0.1 us", "equal forces, $h_0$ = 2 and 6 nm"])
     return figure
 
 

@@ -90,6 +90,14 @@ def _menisci(n: int, pair: tuple[int, int]) -> list[float]:
     return [exact, float(printed), float(kept), whole * (HEIGHT**-2 - closed**-2)]
 
 
+UNITS = {  # of the panels: kind, row
+    ("rough", 0): (1e-3, "mN"),
+    ("smooth", 0): (1e-3, "mN"),
+    ("rough", 1): (1e-6, "uN"),
+    ("smooth", 1): (1e-3, "mN"),
+}
+
+
 def draw(data: dict[str, Any]) -> Figure:
     """Meniscus and viscous forces of asperities and of a divided film."""
     figure, panels = plot.figure(2, 2, size=(9.6, 8.4), sharex=True)
@@ -98,19 +106,22 @@ def draw(data: dict[str, Any]) -> Figure:
             found = np.abs(data[f"{kind}_{key(pair)}"])
             for row in (0, 1):
                 ax, look = panels[row, column], {"color": color, "marker": sign, "ms": 3.5}
+                exact, printed = found[2 * row : 2 * row + 2] / UNITS[kind, row][0]
                 label = f"{pair[0]}/{pair[1]} deg" + (", repels" if pair[0] > 90 else "")
-                ax.plot(data["numbers"], found[2 * row], **look, label=label)
-                ax.plot(data["numbers"], found[2 * row + 1], ":", color=color)
+                ax.plot(data["numbers"], exact, **look, label=label)
+                ax.plot(data["numbers"], printed, ":", color=color)
     for ax in panels.flat:
         ax.set(xscale="log", yscale="log")
     for ax, text in zip(panels[1], ("asperities", "menisci"), strict=True):
         ax.set_xlabel(f"number of {text}")
     plot.plain_log(panels[0, 1].yaxis)
-    panels[0, 0].set_ylabel("meniscus force, absolute [N]")
-    panels[1, 0].set_ylabel("viscous impulse over t_s [N]")
+    for (kind, row), (_, unit) in UNITS.items():
+        what = "viscous impulse over $t_s$" if row else "meniscus force, absolute"
+        panels[row, ("rough", "smooth").index(kind)].set_ylabel(f"{what} [{unit}]")
     panels[0, 0].plot([], [], ":", color="0.2", label="as printed")
     plot.legend(panels[0, 0], fontsize=8)
     panels[1, 0].set_ylim(*_around(panels[1, 0]))
+    plot.plain_log(panels[1, 0].yaxis)
     letters(
         list(panels.flat),
         ["asperities, meniscus", "smooth, meniscus", "asperities, viscous", "smooth, viscous"],

@@ -98,10 +98,10 @@ def draw(data: dict[str, Any]) -> Figure:
             top.plot(travel / nm, mean / nm, color=color)
             top.plot(travel[-1] / nm, data[f"printed_{name}"][i] / nm, "x", color=color, ms=7)
             bottom.plot(travel / nm, number(force, RADIUS, TIME, VISCOSITY), color=color)
-        top.set(xlabel="travel [nm]", ylabel="impulse so far over t_s [nN]", ylim=(0.0, None))
+        top.set(xlabel="travel [nm]", ylabel="impulse so far over $t_s$ [nN]", ylim=(0.0, None))
         bottom.set(xlabel="travel [nm]", ylim=(0.0, None))
-    panels[1, 0].set_ylabel("force, t_s F/(eta x^2), Eq. (3.62)")
-    panels[1, 1].set_ylabel("force, t_s F/(eta R^2), Eq. (3.63)")
+    panels[1, 0].set_ylabel(r"$t_s F/(\eta x^2)$, Eq. (3.62)")
+    panels[1, 1].set_ylabel(r"$t_s F/(\eta R^2)$, Eq. (3.63)")
     heights_legend(panels[0, 0], [("printed, whole slide", "x")], fontsize=8)
     letters(
         list(panels.flat),

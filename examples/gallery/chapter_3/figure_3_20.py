@@ -67,12 +67,14 @@ def draw(data: dict[str, Any]) -> Figure:
     for ax in panels[:2]:
         ax.set(xscale="log", yscale="log", xlabel="separation time [us]", ylim=(1e-4, 3e3))
     panels[0].set_ylabel("impulse over the time [nN]")
-    panels[1].plot([], [], ":", color="0.2", label="printed (3.56), D0 = 0")
+    panels[1].plot([], [], ":", color="0.2", label="printed (3.56), $D_0 = 0$")
     panels[2].axhline(1.0, color="0.5", lw=0.8)
-    panels[2].set(xscale="log", xlabel="gap D0 [nm]", ylabel="impulse over that of (3.56), D0 = 0")
+    panels[2].set(
+        xscale="log", xlabel="gap $D_0$ [nm]", ylabel="impulse over that of (3.56), $D_0 = 0$"
+    )
     heights_legend(panels[0], [], fontsize=8)
     plot.legend(panels[1], fontsize=8)
-    letters(list(panels), ["flats", "sphere, 0.3 nm away", "sphere: no limit at D0 = 0"])
+    letters(list(panels), ["flats", "sphere, 0.3 nm away", "sphere: no limit at $D_0$ = 0"])
     return figure
 
 

@@ -67,21 +67,21 @@ def draw(data: dict[str, Any]) -> Figure:
     figure, panels = plot.figure(2, 2, size=(9.6, 8.2), sharex=True, sharey="row")
     numbers = data["numbers"]
     for i, (height, color) in enumerate(zip(HEIGHTS, SHADES, strict=True)):
-        label = f"h0 = {height / nm:g} nm"
+        label = f"$h_0$ = {height / nm:g} nm"
         for column, name in enumerate(("rough", "smooth")):
             apart = numbers <= data["overlap"][i] if name == "rough" else numbers > 0.0
             for row, kind in enumerate((name, f"{name}_at_speed")):
                 ax = panels[row, column]
-                ax.plot(numbers, data[kind][i], color=color, lw=0.8)
-                shown = np.where(apart, data[kind][i], np.nan)
+                ax.plot(numbers, data[kind][i] * 1e6, color=color, lw=0.8)
+                shown = np.where(apart, data[kind][i] * 1e6, np.nan)
                 ax.plot(numbers, shown, color=color, label=label)
-            panels[0, column].plot(numbers, data[f"printed_{name}"][i], ":", color=color)
+            panels[0, column].plot(numbers, data[f"printed_{name}"][i] * 1e6, ":", color=color)
     for ax in panels.flat:
         ax.set(xscale="log", yscale="log")
     for ax, text in zip(panels[1], ("asperities", "menisci"), strict=True):
         ax.set_xlabel(f"number of {text}")
     for ax in panels[:, 0]:
-        ax.set_ylabel("mean viscous force [N]")
+        ax.set_ylabel("mean viscous force [uN]")
     panels[0, 0].plot([], [], ":", color="0.2", label="as printed")
     panels[0, 0].plot([], [], color="0.2", lw=0.8, label="neighbours overlap")
     handles = panels[0, 0].get_legend_handles_labels()
@@ -89,8 +89,8 @@ def draw(data: dict[str, Any]) -> Figure:
     letters(
         list(panels.flat),
         [
-            "asperities, t_s = 0.1 us",
-            "menisci, t_s = 0.1 us",
+            "asperities, $t_s$ = 0.1 us",
+            "menisci, $t_s$ = 0.1 us",
             "asperities, given speed",
             "menisci, given speed",
         ],

@@ -149,7 +149,7 @@ def ratio_text(ratios: Iterable[float]) -> str:
 
 
 def heights_legend(
-    ax: Any, styles: Sequence[tuple[str, str]], symbol: str = "h0", **more: Any
+    ax: Any, styles: Sequence[tuple[str, str]], symbol: str = "$h_0$", **more: Any
 ) -> None:
     """Legend of a panel: a colour for each height of the film, a line style for each closure."""
     for height, shade in zip(HEIGHTS, SHADES, strict=True):

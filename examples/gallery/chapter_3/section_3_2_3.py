@@ -95,8 +95,8 @@ def draw(data: dict[str, Any]) -> Figure:
         right.plot(enough, force, "|", color=color, ms=14)
     left.set(xscale="log", yscale="log", xlabel="gap [nm]", ylabel="neck radius of the arc [nm]")
     left.set(ylim=(0.1, 60.0))
-    right.set(xscale="log", xlabel="gap D_s at rupture [nm]", ylabel="Eq. (3.26) [nN]")
-    heights_legend(left, [("exact limit", "o"), ("printed distance", "x")], symbol="s0")
+    right.set(xscale="log", xlabel="gap $D_s$ at rupture [nm]", ylabel="Eq. (3.26) [nN]")
+    heights_legend(left, [("exact limit", "o"), ("printed distance", "x")], symbol="$s_0$")
     for label, sign in (("printed distance", "x"), ("enough for the printed digits", "|")):
         right.plot([], [], sign, color="0.2", ms=8, label=label)
     plot.legend(right, fontsize=8, loc="center right")

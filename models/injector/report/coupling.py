@@ -262,14 +262,14 @@ def _inside(case: Case, mass: Path, end: float, n: int, *, linear: bool) -> _Fou
     with Instance(mass) as one:
         one.start({**case.values, "m": MASS, "k_s": _SPRING, "h_rel": _END}, end)
         inputs, release = one.references("F_ext", "dF_ext"), one.references("t_release")
-        begun = clock.perf_counter()
+        begun = clock.process_time()
         for i in range(n):
             first, last = case.pull(i * length), case.pull((i + 1) * length)
             one.set(inputs, [first, (last - first) / length if linear else 0.0])
             one.step(i * length, length)
             if one.get(release)[0] >= 0.0:
                 break
-        seconds = clock.perf_counter() - begun
+        seconds = clock.process_time() - begun
         return one.get(release)[0], i + 1, seconds
 
 
@@ -287,7 +287,7 @@ def coupling_picture(out: Path) -> Path:
 
 
 def coupling_figure(found: Sequence[tuple[Case, float, Sequence[Run]]], out: Path) -> Path:
-    """Draw the schemes for some cases: steps above, seconds below.
+    """Draw the schemes for some cases, a row for each: over steps, and over seconds.
 
     Parameters
     ----------
@@ -296,19 +296,21 @@ def coupling_figure(found: Sequence[tuple[Case, float, Sequence[Run]]], out: Pat
     out : Path
         Folder of the picture.
     """
-    made, axes = plot.figure(2, len(found), size=(4.4 * len(found), 9.0), sharey=True)
-    for column, (case, release, runs) in enumerate(found):
-        for ax, of in zip(axes[:, column], ("steps", "seconds"), strict=True):
+    made, axes = plot.figure(
+        len(found), 2, size=(9.6, 4.1 * len(found) + 0.8), sharey=True, squeeze=False
+    )
+    for row, (case, release, runs) in zip(axes, found, strict=True):
+        for ax, of in zip(row, ("steps", "seconds"), strict=True):
             for scheme in SCHEMES:
                 _line(ax, [run for run in runs if run.scheme == scheme], scheme, of)
             _dress(ax, of)
         stable = release / case.stable_step
-        plot.title(axes[0, column], f"{case.name}: released after {_time(release)}")
-        _limit(axes[0, column], stable, case.stable_step)
-    _names(axes[0, -1])
-    for ax in axes[:, 0]:
+        plot.title(row[0], f"{case.name}: released after {_time(release)}")
+        _limit(row[0], stable, case.stable_step)
+        row[0].set_ylabel("relative error of the release time")
+    _names(axes[-1, 0])
+    for ax in axes[0]:
         _bands(ax)
-        ax.set_ylabel("relative error of the release time")
     plot.letters(axes.flat)
     plot.shared_legend(made, axes[0, 0])
     return plot.save(made, out / "coupling")

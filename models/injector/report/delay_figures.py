@@ -52,15 +52,25 @@ def delays_over_temperature(
     limit, span = scene.tension_limit, scene.study.temperatures
     temperatures = sorted({*np.linspace(min(span), max(span), 5).tolist(), *span})
     x = [t - celsius(0.0) for t in temperatures]
+    across, longest = ax.get_xaxis_transform(), dry
     for curve in _curves_over_temperature(scene, limit):
         delays = [delay(scene, t, rtol=_RTOL, **curve.oil) for t in temperatures]
-        _draw(ax, scene, curve, x, delays)
+        never = [one for one, d in zip(x, delays, strict=True) if math.isnan(d)]
+        longest = max([longest, *(d for d in delays if not math.isnan(d))])
+        lost = {"color": curve.style["color"], "ls": "none", "marker": "x", "ms": 7}
+        if len(never) == len(x):
+            ax.plot([], [], label=f"{curve.label}:\nnot released within the pulse", **lost)
+            continue
+        ax.plot(x, [d * 1e3 for d in delays], label=curve.label, **curve.style)
+        ax.plot(never, [0.97] * len(never), transform=across, **lost)
     for run in runs:
         after = cycles(run, scene)[0].delay * 1e3
         ax.plot(run.temperature - celsius(0.0), after, "o", color="k", mfc="none")
     ax.plot([], [], "o", color="k", mfc="none", label="FMU pair")
-    _finish(ax, scene, dry)
-    ax.set_xlabel("oil temperature [degC]")
+    ax.axhline(dry * 1e3, color="0.5", ls=(0, (1, 3)), lw=0.8)
+    plot.note(ax, "dry spool", dry * 1e3, below=True)
+    ax.set(ylim=(0.0, 1.4e3 * longest), xlabel="oil temperature [degC]")
+    ax.set_ylabel("release delay after energising [ms]")
     bears = f", oil that cavitates at {limit.tension / bar:g} bar" if limit is not None else ""
     plot.title(ax, f"release delay over temperature{bears}")
     plot.legend(ax, loc="center left", bbox_to_anchor=(1.0, 0.5))

@@ -54,23 +54,12 @@ def _oil(scene: InjectorScene, run: InjectorRun) -> str:
     return f"cavitates at {limit.tension / bar:g} bar, cavity at {held:.3g} bar"
 
 
-def _hatch(ax: Any, run: InjectorRun, time: Any, **more: Any) -> None:
-    """Hatch where the film is cavitated, below the curves."""
+def _mark_cavitated(ax: Any, run: InjectorRun, time: Any, **more: Any) -> None:
+    """Mark where the film is cavitated by a bar along the bottom."""
     acts = run.coupled["limit"] == LimitKind.TENSION
     across = ax.get_xaxis_transform()
-    ax.fill_between(
-        time,
-        0,
-        1,
-        where=acts,
-        transform=across,
-        facecolor="none",
-        edgecolor="0.85",
-        hatch="//",
-        lw=0,
-        zorder=0,
-        **more,
-    )
+    look = {"color": plot.COLORS["limit"], "lw": 0, "zorder": 0}
+    ax.fill_between(time, 0, 0.03, where=acts, transform=across, **look, **more)
 
 
 def _gap(ax: Any, scene: InjectorScene, run: InjectorRun, time: Any) -> None:
@@ -83,7 +72,10 @@ def _gap(ax: Any, scene: InjectorScene, run: InjectorRun, time: Any) -> None:
 
 
 def _forces(ax: Any, run: InjectorRun, time: Any) -> None:
-    """Draw what opens as positive and what holds as negative; the stop, which rings, behind."""
+    """Draw what opens as positive and what holds as negative; the stop, which rings, behind.
+
+    Beyond the largest force of the magnet the ordinate is logarithmic: impacts are far larger.
+    """
     signals = run.coupled
     for name, label, color, sign in (
         ("F_mag", "magnet, opens", "magnet", 1.0),
@@ -97,7 +89,16 @@ def _forces(ax: Any, run: InjectorRun, time: Any) -> None:
         behind = {"lw": 0.7, "zorder": 1.5} if name == "F_stop" else {}
         ax.plot(time, sign * signals[name], color=plot.COLORS[color], label=label, **behind)
     top = 1.15 * float(signals["F_mag"].max())
-    ax.set_ylim(-top, top)
+    deepest = max(top, 1.3 * float(signals["F_stop"].max()))
+    ax.set_yscale("symlog", linthresh=top, linscale=2.0)
+    ax.set_ylim(-deepest, top)
+    step = 10.0 ** math.floor(math.log10(top))
+    n, every = int(top / step), 2 if top > 3.0 * step else 1
+    inside = [k * step for k in range(-(n - n % every), n + 1, every)]
+    tens = [-(10.0**k) for k in range(1, 9) if top < 10.0**k <= deepest]
+    ax.set_yticks([*tens, *inside])
+    ax.yaxis.set_major_formatter("{x:g}")
+    ax.minorticks_off()
     ax.axhline(0.0, color="0.3", lw=0.6)
     ax.set_ylabel("force on the spool [N]")
 
@@ -116,7 +117,7 @@ def _balance(scene: InjectorScene, run: InjectorRun, out: Path) -> Path:
         speed.plot(time, run.coupled["v"], color=plot.COLORS["speed"])
         _forces(force, run, time)
         for ax in (gap, force):
-            _hatch(ax, run, time, label="film cavitated" if ax is force else None)
+            _mark_cavitated(ax, run, time, label="film cavitated" if ax is force else None)
         force.set(xlabel="time since energising [ms]", xlim=(-0.05 * end, end))
         gap.set_ylim(0.0, 1.15e6 * float(run.coupled["h"][shown].max()))
     for ax in axes[:, 1]:
@@ -124,7 +125,7 @@ def _balance(scene: InjectorScene, run: InjectorRun, out: Path) -> Path:
     axes[1, 0].set_ylabel("speed of the spool [m/s]")
     plot.shared_legend(made, axes[2, 0])
     head = f"{scene.name}, oil at {run.label}"
-    forces = "up opens, down holds; impacts on the stop are cut off"
+    forces = "up opens, down holds; logarithmic beyond the magnet"
     plot.letters(axes.flat, (f"{head}: opening", "first cycle", "", "", forces, ""))
     return plot.save(made, out / f"force-balance_{run.name}")
 

@@ -240,12 +240,14 @@ def _draw(found: Sequence[WorkPrecision], scene: Bridges, out: Path) -> tuple[Pa
     from ....plot import cost as cost_plot
     from ....plot import style as plot
 
-    made, axes = plot.figure(1, 2, size=(10.5, 5.0))
+    rows = len(scene.bridges)
+    made, axes = plot.figure(1, 2, size=(10.0, 1.6 + 0.75 * rows), sharey=True)
     names = [case.label for case in scene.bridges]
     for one, ax in zip(found, axes, strict=True):
         cost_plot.closures(one, ax, names)
     plot.title(axes[0], f"{scene.name}: force, up to {scene.reach:g} of the limit")
     plot.title(axes[1], "rupture distance")
+    axes[1].tick_params(labelleft=False)
     plot.letters(axes)
     plot.shared_legend(made, axes[0])
     return (plot.save(made, out / "cost"),)

@@ -21,8 +21,9 @@ from .sketch import sketch
 
 __all__ = ["draw"]
 
-_TONES = ("#8d6b3d", "#e9a23b", "#2a9d8f", "#1f4e79", "#6a4c93")
-_PLUS, _MINUS = "#1f4e79", "#c1440e"
+_PLUS, _MINUS = plot.SERIES[1][0], plot.SERIES[2][0]
+_PALE = 0.35  # what rings after the tip is free, behind what decides
+_RINGING = 30.0  # [us] after a pulse, in which the mirror comes to rest but for a hundredth
 
 
 def draw(
@@ -40,21 +41,27 @@ def draw(
 
 
 def _flips(scene: MicromirrorScene, run: MirrorRun, out: Path) -> Path:
-    """Tilt and voltages over all flips, and the phase plane."""
-    made, axes = plot.figure(1, 2, (10.0, 4.2), width_ratios=(2, 1))
-    over, phase = axes
+    """Tilt over all flips, and each of them from its pulse, on each other."""
+    made, (over, each) = plot.figure(1, 2, (10.0, 4.2), width_ratios=(3, 2))
     time, tilt = run.coupled["time"] * 1e6, np.degrees(run.coupled["tilt"])
-    over.plot(time, tilt, color=_PLUS)
+    over.plot(time, tilt, color=_PLUS, lw=0.8)
     edge = math.degrees(scene.mirror.tips.landing_tilt)
     for level in (edge, -edge):
-        over.axhline(level, color="0.6", lw=0.8, ls=":")
-        phase.axvline(level, color="0.6", lw=0.8, ls=":")
+        for ax in (over, each):
+            ax.axhline(level, color="0.6", lw=0.8, ls=":")
     over.set(xlabel="time [us]", ylabel="tilt [deg]")
     plot.title(over, f"{scene.mirror.waveform.flips} flips (dotted: unbent tips touch)")
-    phase.plot(tilt, run.coupled["rate"] * 1e-3, color=_PLUS, lw=0.8)
-    phase.set(xlabel="tilt [deg]", ylabel="rate [rad/ms]")
-    plot.title(phase, "phase plane")
-    plot.letters((over, phase))
+    wave = scene.mirror.waveform
+    for i in range(min(wave.flips, len(plot.SERIES))):
+        since = time - 1e6 * (wave.start_delay + i * wave.period)
+        near = (since > -1.0) & (since < min(_RINGING, 1e6 * wave.period))
+        colour, line, _ = plot.SERIES[i]
+        sign = 1.0 if i % 2 == 0 else -1.0
+        each.plot(since[near], sign * tilt[near], color=colour, ls=line, label=f"flip {i + 1}")
+    each.set(xlabel="time since the pulse [us]")
+    plot.title(each, "each flip; those back, mirrored")
+    plot.legend(each)
+    plot.letters((over, each))
     return plot.save(made, out / "flips")
 
 
@@ -66,7 +73,9 @@ def _first_flip(scene: MicromirrorScene, run: MirrorRun, out: Path) -> Path:
     for side, color, label in (("plus", _PLUS, "side +"), ("minus", _MINUS, "side -")):
         volts.plot(time, np.abs(signals[f"volts_{side}"]), color=color, label=label)
         gap.plot(time, signals[f"gap_{side}"] * 1e9, color=color, label=label)
-        force.plot(time, signals[f"force_{side}"] * 1e9, color=color, label=label)
+        pull, free = signals[f"force_{side}"] * 1e9, signals[f"state_{side}"] == FREE
+        force.plot(time, pull, color=color, alpha=_PALE, lw=0.6)
+        force.plot(time, np.where(free, np.nan, pull), color=color, label=label)
     tilt.plot(time, np.degrees(signals["tilt"]), color="k", label="FMUs")
     n = len(run.monolithic.time)
     tilt.plot(
@@ -88,7 +97,9 @@ def _first_flip(scene: MicromirrorScene, run: MirrorRun, out: Path) -> Path:
     volts.set_xlim(-1.0, 25.0)
     text = f"first flip at {100 * scene.study.humidity:g} % relative humidity"
     plot.title(volts, text)
-    plot.title(force, "up: tips hold the side down; down: bent tips push it up")
+    plot.title(
+        force, "up: tips hold the side down; down: bent tips push it up; pale: they ring free"
+    )
     plot.shared_legend(made, gap)
     plot.letters((volts, tilt, gap, force))
     return plot.save(made, out / "first-flip")
@@ -108,7 +119,7 @@ def _lift_off(scene: MicromirrorScene, out: Path) -> Path:
     for column, reset in enumerate((None, pulse)):
         gap, force = axes[0][column], axes[1][column]
         mirror, last = scene.first_flip(reset), 0.5e-6
-        for humidity, color in zip(_chosen(scene), cycle(_TONES), strict=False):
+        for humidity, (color, line, _) in zip(_chosen(scene), cycle(plot.SERIES), strict=False):
             motion = couple(
                 mirror,
                 scene.tips(tip_law(scene.tip, humidity)),
@@ -119,9 +130,13 @@ def _lift_off(scene: MicromirrorScene, out: Path) -> Path:
             )
             time = motion["time"] * 1e6
             label = f"{100 * humidity:g} %"
-            gap.plot(time, motion["gap_plus"] * 1e9, color=color, label=label)
-            force.plot(time, motion["force_plus"] * 1e9, color=color, label=label)
             free = motion["state_plus"] == FREE
+            left = int(free.argmax()) if free.any() else len(free)
+            for ax, name in ((gap, "gap_plus"), (force, "force_plus")):
+                value = motion[name] * 1e9
+                ax.plot(time[:left], value[:left], color=color, ls=line, label=label)
+                ax.plot(time[left:], value[left:], color=color, lw=0.8, alpha=_PALE)
+                ax.plot(time[left : left + 1], value[left : left + 1], "o", color=color, ms=4)
             last = max(last, float(motion["time"][free.argmax()]) if free.any() else 1e-6)
         gap.set_yscale("log")
         plot.plain_log(gap.yaxis)
@@ -131,6 +146,7 @@ def _lift_off(scene: MicromirrorScene, out: Path) -> Path:
         plot.title(gap, ending)
     axes[0][0].set_ylabel("gap under a tip [nm]")
     axes[1][0].set_ylabel("force of the tips\non the mirror [nN]")
+    plot.note(axes[1][0], "dots: the tip is free; pale: it rings", axes[1][0].get_ylim()[0])
     plot.shared_legend(made, axes[0][0])
     plot.letters(axes.flat)
     return plot.save(made, out / "lift-off")
@@ -191,7 +207,7 @@ def _law(scene: MicromirrorScene, found: Sequence[Release], out: Path) -> Path:
     widest = max((held.break_gap for held in wet), default=10.0 * start)
     gaps = np.geomspace(start, 1.1 * widest, 160)
     picked = wet[:: max(1, math.ceil(len(wet) / 4))]
-    for held, color in zip(picked, cycle(_TONES[1:]), strict=False):
+    for held, (color, *_) in zip(picked, cycle(plot.SERIES), strict=False):
         law = tip_law(scene.tip, held.humidity).film.laws[MeniscusForce]
         some = gaps[gaps < held.break_gap]
         forces = [law.force(float(gap), 0.0) * 1e9 for gap in some]
