@@ -28,15 +28,34 @@ REPOSITORY = {
     "CITATION.cff": "about/citation.md",
 }
 TITLES = {"LICENSE": "Licence", "CITATION.cff": "Citation"}
-# How much a page counts in a search, by the beginning of its path; the first that fits.
+# How much a page counts in a search, by the beginning of its path; the first that fits. A word of a
+# title counts as a thousand of the text: what is below 1e-3 comes after all prose.
 BOOST = {
     "getting-started": 8.0,
     "tutorials/": 6.0,
     "how-to/": 4.0,
-    "api/": 0.5,
-    "gallery/": 0.5,
-    "internals": 0.2,
-    "about/": 0.2,
+    "api/": 5e-4,
+    "gallery/": 1e-3,
+    "architecture": 5e-4,
+    "about/": 5e-4,
+}
+# Words that lead to a page whatever else has them in its title.
+WORDS = {
+    "extras.md": "install installation pip conda wheel dependencies",
+    "about/citation.md": "citation cite bibtex reference",
+    "fmu.md": "fmu fmi simulink openmodelica amesim",
+    "injector.md": "stiction valve spool diesel",
+    "micromirror.md": "mems dmd",
+    "physics/humidity.md": "humidity kelvin",
+    "physics/roughness.md": "roughness psd",
+    "physics/sliding.md": "hysteresis",
+    "physics/viscous.md": "cavitation squeeze reynolds",
+    "reference/materials.md": (
+        "young modulus poisson hardness silicon glass steel rubber o-ring material liquid oil water"
+    ),
+    "reference/scene-files.md": "units unit toml",
+    "tutorials/index.md": "tutorial example",
+    "compared.md": "alternative tamaas contactmechanics slippy aspher comsol",
 }
 
 
@@ -114,7 +133,9 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
-    """Let a search find tutorials before functions."""
+    """Let a search find prose before functions."""
+    if page.file.src_uri in WORDS:
+        page.meta.setdefault("tags", WORDS[page.file.src_uri].split())
     for start, boost in BOOST.items():
         if page.file.src_uri.startswith(start):
             page.meta.setdefault("search", {"boost": boost})

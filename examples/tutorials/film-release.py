@@ -6,6 +6,8 @@ decides: the viscosity, or the tension at which oil cavitates?
 """
 
 # %% [markdown]
+# [Live page: the film of this tutorial](../live/oil-film.toml)
+#
 # ## Describe the scene
 #
 # The faces are two flats of 3.2 mm radius. The film fills the whole gap at the start, and the

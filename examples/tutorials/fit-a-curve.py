@@ -27,6 +27,8 @@ scene = ck.SeparationScene(
 )
 
 # %% [markdown]
+# [Live page: the curve that is fitted](../live/flooded-sphere.toml)
+#
 # ## Readings
 #
 # Here they are made by the closed form, so that the answer is known: 0.4 Pa·s, a gap that was zeroed

@@ -6,6 +6,8 @@ communication step costs in accuracy.
 """
 
 # %% [markdown]
+# [Live page: what the block will do](../live/film-of-the-fmu.toml)
+#
 # ## Build it from a scene
 #
 # A mass of 20 g held by 20 µm of oil, pulled by 10 N. Its values become the start values of the FMU,

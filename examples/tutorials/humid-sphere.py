@@ -6,6 +6,8 @@ force, at which distance does the water bridge break, and does dry air help?
 """
 
 # %% [markdown]
+# [Live page: a larger sphere, without attraction of the solids](../live/humid-sphere.toml)
+#
 # ## Describe the scene
 #
 # All numbers are in SI units and radians. This sphere is smaller than what continuum models are

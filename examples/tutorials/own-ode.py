@@ -6,6 +6,8 @@ survives it?
 """
 
 # %% [markdown]
+# [Live page: the force of this film over its gap](../live/film-at-a-speed.toml)
+#
 # ## The film alone
 #
 # A plan is enough: `plan.force(gap, speed)` is the sum of all listed forces, positive when it

@@ -55,6 +55,16 @@ def test_links_of_the_changelog_are_seen_from_its_page(script):
     assert "](docs/" not in page
 
 
+def test_pages_that_words_lead_to_are_there(script):
+    site = script("site_pages")
+    made = set(site.REPOSITORY.values())
+    assert [page for page in site.WORDS if not (ROOT / "docs" / page).exists()] == [
+        page for page in site.WORDS if page in made
+    ]
+    words = " ".join(site.WORDS.values()).split()
+    assert len(words) == len(set(words)), "a word leads to one page"
+
+
 def test_every_public_name_has_a_page(script):
     api = script("api_pages")
     shown = [name for names in api.public_names().values() for name in names]

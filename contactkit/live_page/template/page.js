@@ -120,9 +120,17 @@ function update() {
   const moved = Object.keys(values).filter((name) => values[name] !== start[name]);
   const hash = moved.map((name) => `${name}=${values[name]}`).join("&");
   history.replaceState(null, "", hash ? `#${hash}` : location.pathname + location.search);
+  announce();
 }
 
 // The address, and files -----------------------------------------------------------------------
+
+// Inside another page: shorter (page.css), and that page hears how tall it is and what is moved.
+const embedded = globalThis.parent !== globalThis;
+document.documentElement.classList.toggle("embedded", embedded);
+function announce() {
+  if (embedded) parent.postMessage({ height: document.body.offsetHeight, hash: location.hash }, "*");
+}
 
 function readAddress() {
   Object.assign(values, start);
@@ -199,6 +207,7 @@ async function main() {
     data.sliders.forEach((s) => s.show());
     update();
   });
+  new ResizeObserver(announce).observe(document.body);
   document.body.dataset.ready = "yes";
 }
 
