@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
@@ -98,10 +98,14 @@ class Plan(ScenePlan):
         """Return what acts in a state: all, or what a broken film and detached solids leave."""
         return self._left[FilmState(volume_fraction, broken, detached)]
 
-    def acting_film(self, gap: float) -> Film | None:
-        """Return what acts at a gap [m] during a monotonic opening: None if nothing does."""
+    def acting_film(self, gap: float, speed: float = 0.0) -> Film | None:
+        """Return what acts at a gap [m] during a monotonic opening: None if nothing does.
+
+        The speed [m/s] decides where the end of the film depends on it.
+        """
         film = self.film
-        return self.remaining_film(1.0, broken=gap > film.end, detached=gap > film.release)
+        broken = gap > film.end or (bool(film.moving_ends) and gap > film.end_at(gap, speed))
+        return self.remaining_film(1.0, broken=broken, detached=gap > film.release)
 
     def force(self, gap: ArrayLike, speed: ArrayLike = 0.0) -> Any:
         """Sum of the listed forces [N] at a gap and an opening speed; positive resists opening.
@@ -175,8 +179,11 @@ class Plan(ScenePlan):
         return found[0] if gaps.ndim == 0 else np.reshape(found, gaps.shape)
 
     def _force(self, gap: float, speed: float) -> float:
-        film = self.acting_film(float(gap))
-        return 0.0 if film is None else film.force(float(gap), float(speed))
+        film, gap, speed = self.acting_film(float(gap), float(speed)), float(gap), float(speed)
+        if film is None:
+            return 0.0
+        film.check(gap, speed)
+        return film.force(gap, speed)
 
     @property
     def forces(self) -> tuple[Column, ...]:
@@ -392,6 +399,7 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
     limits: list[tuple[LimitKind, Limiter]] = []
     cavity: Cavitation | None = None
     end, outlasts = math.inf, False
+    moving: list[Callable[[float, float], float] | None] = []
     for effect in prepared.scene.effects:
         if isinstance(effect, SeparationForce):
             laws[type(effect)] = _law(prepared, effect)
@@ -403,9 +411,13 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
                 cavity = law
         elif isinstance(effect, FilmEnd):
             end, outlasts = effect.prepare(prepared), effect.outlasts
+            moving.append(effect.prepare_moving(prepared))
     if not outlasts:
         end = min([end, *(law.end for law in laws.values())])
-    return Film(MappingProxyType(laws), tuple(limits), end, prepared.film.full_gap, cavity)
+        moving += [law.end_at for law in laws.values()]
+    ends = tuple(one for one in moving if one is not None)
+    full_gap = prepared.film.full_gap
+    return Film(MappingProxyType(laws), tuple(limits), end, full_gap, cavity, moving_ends=ends)
 
 
 def _as_it_moves(prepared: PreparedScene[SeparationScene], film: Film) -> Film:

@@ -154,11 +154,13 @@ class RunView(Protocol):
 class RunCurves(NamedTuple):
     """Curves of a run, from which others follow.
 
-    `gap` [m], whether the film is `whole` there, and the volume of the film over that of the scene.
+    `gap` [m], `speed` [m/s] (0 where none is known), whether the film is `whole` there, and the
+    volume of the film over that of the scene.
     """
 
     plan: PlanView
     gap: Curve
+    speed: Curve
     whole: NDArray[np.bool_]
     volume_fraction: Curve
 
@@ -350,6 +352,15 @@ class FilmEnd(SeparationEffect):
     @abc.abstractmethod
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> float:
         """Gap at which the film breaks [m]; inf for never."""
+
+    def prepare_moving(
+        self, prepared: PreparedScene[SeparationScene]
+    ) -> Callable[[float, float], float] | None:
+        """Gap at which the film breaks [m], at a gap and a speed that a motion has reached.
+
+        None where that does not depend on the motion; otherwise `prepare` gives the largest one.
+        """
+        return None
 
 
 @frozen(kw_only=True)
