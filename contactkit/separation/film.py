@@ -55,6 +55,8 @@ class Film:
     moving_ends: tuple[Callable[[float, float], float], ...] = field(default=(), kw_only=True)
     """Gaps [m] at which the film breaks at a gap and a speed, where that depends on the motion;
     `end` is then what it lasts to at most."""
+    checks: tuple[Callable[[float, float], None], ...] = field(default=(), kw_only=True)
+    """What refuses a gap and a speed that a motion has reached, where a law is not known."""
     kinks: tuple[float, ...] = field(init=False)
     release: float = field(init=False)
     recontact: float = field(init=False)
@@ -154,6 +156,7 @@ class Film:
             self.full_gap,
             self.cavity,
             moving_ends=self.moving_ends,
+            checks=self.checks,
         )
 
     def end_at(self, gap: float, speed: float) -> float:
@@ -162,9 +165,8 @@ class Film:
 
     def check(self, gap: float, speed: float) -> None:
         """Refuse a gap and a speed that a motion has reached, where a law is not known."""
-        for law in self.laws.values():
-            if law.check is not None:
-                law.check(gap, speed)
+        for check in self.checks:
+            check(gap, speed)
 
     @property
     def is_limited(self) -> bool:

@@ -32,9 +32,11 @@ from .effects.base import (
     Limiter,
     LimitKind,
     MovingAngle,
+    MovingEnd,
     SeparationEffect,
     SeparationForce,
     VolumeLoss,
+    VolumeRate,
     effects_of,
 )
 from .effects.force_law import measured_rate, settled
@@ -77,6 +79,9 @@ class Plan(ScenePlan):
     """Columns a result of this plan may have, by their names."""
     _films: Mapping[float, Film] = field(repr=False)
     _left: Mapping[FilmState, Film | None] = field(repr=False)
+    volume_rate: VolumeRate | None = field(default=None, repr=False)
+    """Rate of the volume in a motion; None for a film that keeps it, or of which it is known."""
+    _film_of: Callable[[float], Film] | None = field(default=None, repr=False)
 
     @property
     def scene(self) -> SeparationScene:
@@ -89,13 +94,18 @@ class Plan(ScenePlan):
         return self.prepared.accuracy
 
     def film_with(self, volume_fraction: float) -> Film:
-        """Return the film of the volume of the scene, or of what re-wets of it."""
+        """Return the film of the volume of the scene, or of what is left or re-wets of it."""
+        if self._film_of is not None:
+            return self._film_of(volume_fraction)
         return self._films[volume_fraction]
 
     def remaining_film(
         self, volume_fraction: float, *, broken: bool, detached: bool
     ) -> Film | None:
         """Return what acts in a state: all, or what a broken film and detached solids leave."""
+        if self._film_of is not None:
+            film = self._film_of(volume_fraction)
+            return film.remaining(broken=broken, detached=detached) if broken or detached else film
         return self._left[FilmState(volume_fraction, broken, detached)]
 
     def acting_film(self, gap: float, speed: float = 0.0) -> Film | None:
@@ -148,7 +158,7 @@ class Plan(ScenePlan):
         """
         import numpy as np
 
-        if self.film.volume_fraction is not None:
+        if self.film.volume_fraction is not None or self.volume_rate is not None:
             raise PlanError(
                 "plan.force(gap, speed) is not known for a film that loses liquid: its volume "
                 "depends on the motion before; take ck.simulate(plan), or leave out what takes it"
@@ -280,9 +290,15 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
     if film.end <= loading.initial_gap:
         raise _too_wide(prepared, film.end)
     check_rim(prepared)
+    columns = _columns(scene)
+    loss = scene.effect(VolumeLoss)
+    if loss is not None and isinstance(loading, ImposedForce):
+        nothing: Mapping[Any, Any] = MappingProxyType({})
+        rate, film_of = loss.volume_rate(prepared), _of_volume(prepared, film, loss)
+        return Plan(prepared, film, columns, nothing, nothing, rate, film_of)
     films = {1.0: film} | _rewetted(prepared, film)
     states = MappingProxyType(_states(films))
-    return Plan(prepared, film, _columns(scene), MappingProxyType(films), states)
+    return Plan(prepared, film, columns, MappingProxyType(films), states)
 
 
 def _columns(scene: SeparationScene) -> Mapping[str, Column]:
@@ -399,7 +415,7 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
     limits: list[tuple[LimitKind, Limiter]] = []
     cavity: Cavitation | None = None
     end, outlasts = math.inf, False
-    moving: list[Callable[[float, float], float] | None] = []
+    moving: list[MovingEnd] = []
     for effect in prepared.scene.effects:
         if isinstance(effect, SeparationForce):
             laws[type(effect)] = _law(prepared, effect)
@@ -411,19 +427,29 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
                 cavity = law
         elif isinstance(effect, FilmEnd):
             end, outlasts = effect.prepare(prepared), effect.outlasts
-            moving.append(effect.prepare_moving(prepared))
+            moving += filter(None, (effect.prepare_moving(prepared),))
     if not outlasts:
         end = min([end, *(law.end for law in laws.values())])
-        moving += [law.end_at for law in laws.values()]
-    ends = tuple(one for one in moving if one is not None)
-    full_gap = prepared.film.full_gap
-    return Film(MappingProxyType(laws), tuple(limits), end, full_gap, cavity, moving_ends=ends)
+    ends = [one.end_at for one in moving]
+    if not outlasts:
+        ends += [law.end_at for law in laws.values() if law.end_at is not None]
+    checks = [one.check for one in moving]
+    checks += [law.check for law in laws.values() if law.check is not None]
+    return Film(
+        MappingProxyType(laws),
+        tuple(limits),
+        end,
+        prepared.film.full_gap,
+        cavity,
+        moving_ends=tuple(ends),
+        checks=tuple(checks),
+    )
 
 
 def _as_it_moves(prepared: PreparedScene[SeparationScene], film: Film) -> Film:
     """Film along the imposed motion: with the volume it has left, where an effect takes some."""
     effect = prepared.scene.effect(VolumeLoss)
-    if effect is None:
+    if effect is None or isinstance(prepared.scene.loading, ImposedForce):
         return film
     from .wetting.losing_film import losing_film, volume_nodes
 
@@ -432,6 +458,28 @@ def _as_it_moves(prepared: PreparedScene[SeparationScene], film: Film) -> Film:
     nodes = volume_nodes(fraction(last))
     films = [_film(with_fraction(prepared, node)) for node in nodes]
     return losing_film(film, films, fraction, last)
+
+
+def _of_volume(
+    prepared: PreparedScene[SeparationScene], film: Film, loss: VolumeLoss
+) -> Callable[[float], Film]:
+    """Film of any part of the volume that a motion may leave of it.
+
+    Raises
+    ------
+    PlanError
+        If less re-wets than an effect that takes liquid knows.
+    """
+    from .wetting.losing_film import films_of_volume, volume_nodes
+
+    rewets = prepared.scene.meniscus.rewetting
+    if 0.0 < rewets < loss.least:
+        raise PlanError(
+            f"{type(loss).__name__} is known down to {loss.least:.0%} of the liquid, and "
+            f"interface.meniscus.rewetting is {rewets:g}: give 0, or {loss.least:g} or more"
+        )
+    films = [_film(with_fraction(prepared, node)) for node in volume_nodes(loss.least)]
+    return films_of_volume(film, films, loss.least)
 
 
 _RATES = {"none": "not depend on the speed", "proportional": "be proportional to the speed"}

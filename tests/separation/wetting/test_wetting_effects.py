@@ -190,7 +190,7 @@ def test_a_touching_sphere_has_its_angles():
 @pytest.mark.slow
 def test_a_line_too_fast_and_a_film_too_thin_are_refused():
     for effect, speed, words in (
-        (ck.CoxVoinovAngle(), 1e-2, ("CoxVoinovAngle", "capillary number", "-2.93", "lower speed")),
+        (ck.CoxVoinovAngle(), 1e-2, ("CoxVoinovAngle", "capillary number", "-2.94", "lower speed")),
         (ck.CoxVoinovAngle(slip_length=1e-3), 1e-6, ("slip_length", "0.001 m", "smaller one")),
     ):
         scene = drawn(MENISCUS, effect, angles=(0.5, 0.5), speed=speed)
