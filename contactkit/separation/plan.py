@@ -93,6 +93,16 @@ class Plan(ScenePlan):
         """Numerical accuracy of the solution."""
         return self.prepared.accuracy
 
+    @property
+    def moving_effects(self) -> tuple[str, ...]:
+        """Effects by which volume or end of the film depend on the motion, by their names."""
+        return tuple(
+            type(effect).__name__
+            for effect in effects_of(self.scene)
+            if isinstance(effect, MovingAngle | VolumeLoss)
+            or (isinstance(effect, FilmEnd) and effect.prepare_moving(self.prepared) is not None)
+        )
+
     def film_with(self, volume_fraction: float) -> Film:
         """Return the film of the volume of the scene, or of what is left or re-wets of it."""
         if self._film_of is not None:
@@ -232,7 +242,14 @@ class Plan(ScenePlan):
         """See `ScenePlan.notes`."""
         loading, end = self.scene.loading, self.film.end
         found = []
-        if end < loading.final_gap:
+        if self.film.moving_ends or self.volume_rate is not None:
+            found.append(
+                f"the gap at which the film breaks depends on the motion, {quantity_text(end, 'm')} "
+                "at most"
+                if math.isfinite(end)
+                else ""
+            )
+        elif end < loading.final_gap:
             found.append(f"the film breaks at {quantity_text(end, 'm')}, before the final gap")
         if isinstance(loading, ImposedForce) and loading.mass is None:
             found.append("no mass: speeds are those at which the film balances the pull")

@@ -107,6 +107,10 @@ class FilmView(Protocol):
     def volume_fraction(self) -> Callable[[float], float] | None:
         """Volume over that of the scene at a gap [m]; None for a film that keeps it."""
 
+    @property
+    def moving_ends(self) -> tuple[Callable[[float, float], float], ...]:
+        """Gaps at which it breaks [m], at a gap and a speed; empty where that is its `end`."""
+
 
 class PlanView(Protocol):
     """Plan of a separation as an effect sees it: its scene, what is prepared, and the forces."""
@@ -122,6 +126,10 @@ class PlanView(Protocol):
     @property
     def film(self) -> FilmView:
         """Forces of the film."""
+
+    @property
+    def volume_rate(self) -> VolumeRate | None:
+        """Rate of the volume in a motion; None for a film that keeps it."""
 
     def film_with(self, fraction: float) -> FilmView:
         """Return the forces with a fraction of the volume of the liquid."""

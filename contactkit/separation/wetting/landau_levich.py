@@ -40,7 +40,8 @@ _RANGES: Mapping[str, tuple[float, float]] = {
     "landau-levich": (5e-3, 0.1),
 }
 _RTOL = 1e-6  # of the volume; the lines are known to 1e-5
-_STEPS = 60  # of the volume at least: a curve through their ends is right to 1e-5
+_STEPS = 120  # of the volume at least, in ln h: a curve through their ends is right to 1e-6
+_TOUCH = 1e-4  # of the last gap, from which that of a touching sphere is counted
 _KEPT = 4096  # gaps whose volume is kept: every law of the film asks for it
 _ITERATIONS = 60  # of the speed of the lines, which their own loss raises; 4 to 20 are taken
 _SAME = 1e-12  # of what is lost, at which that is known
@@ -125,7 +126,7 @@ class LandauLevichFilm(VolumeLoss):
         """See `VolumeLoss.volume_fraction`."""
         import numpy as np
         from scipy.integrate import solve_ivp
-        from scipy.interpolate import PchipInterpolator
+        from scipy.interpolate import CubicHermiteSpline
 
         loading = prepared.scene.loading
         assert isinstance(loading, ImposedSpeed)
@@ -133,20 +134,25 @@ class LandauLevichFilm(VolumeLoss):
         last = min(loading.final_gap, rate.end(1.0))
         if first >= last:
             return lambda gap: 1.0
+        begin = first or _TOUCH * last  # in ln h, as most is left behind while the gap is small
 
-        def slope(gap: float, left: NDArray[np.float64]) -> list[float]:
-            return [rate(gap, speed, float(left[0])) / speed]
+        def slope(place: float, left: Sequence[float] | NDArray[np.float64]) -> list[float]:
+            gap = math.exp(place)
+            return [gap * rate(gap, speed, float(left[0])) / speed]
 
-        longest = (last - first) / _STEPS
-        solved = solve_ivp(slope, (first, last), [1.0], rtol=_RTOL, atol=_RTOL, max_step=longest)
-        for gap, part in zip(solved.t.tolist(), solved.y[0].tolist(), strict=True):
-            rate.check(gap, speed, part)
-        # Where a film sets in or ceases the slope jumps, and a polynomial through the step swings.
-        curve = PchipInterpolator(solved.t, np.minimum.accumulate(solved.y[0]))
+        span = math.log(begin), math.log(last)
+        longest = (span[1] - span[0]) / _STEPS
+        solved = solve_ivp(slope, span, [1.0], rtol=_RTOL, atol=_RTOL, max_step=longest)
+        places, parts = solved.t.tolist(), solved.y[0].tolist()
+        for place, part in zip(places, parts, strict=True):
+            rate.check(math.exp(place), speed, part)
+        # Slopes of its own, as where a film sets in or ceases they jump and a spline would swing.
+        slopes = [slope(place, [part])[0] for place, part in zip(places, parts, strict=True)]
+        curve = CubicHermiteSpline(places, np.minimum.accumulate(parts), slopes)
 
         @lru_cache(maxsize=_KEPT)
         def fraction(gap: float) -> float:
-            return float(curve(min(max(gap, first), last)))
+            return float(curve(min(max(math.log(max(gap, begin)), span[0]), span[1])))
 
         return fraction
 
