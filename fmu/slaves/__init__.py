@@ -5,6 +5,7 @@ deforming       The variables of ``deforming-mass`` and ``deforming-force``: fil
                 that deform.
 film_travel     Impulses of a film over a change of its gap, and the time of its rupture.
 tension         Tension limit of a scene, and the parameters that stand for it.
+wetting         Dynamic wetting of a scene, and the parameters that stand for it.
 stiction_force  The FMU ``stiction-force``: a liquid film for a tool that owns the mass; motion in,
                 force out.
 stiction_mass   The FMU ``stiction-mass``: a mass held by a liquid film; a force in, motion out.
