@@ -242,13 +242,9 @@ class Plan(ScenePlan):
         """See `ScenePlan.notes`."""
         loading, end = self.scene.loading, self.film.end
         found = []
-        if self.film.moving_ends or self.volume_rate is not None:
-            found.append(
-                f"the gap at which the film breaks depends on the motion, {quantity_text(end, 'm')} "
-                "at most"
-                if math.isfinite(end)
-                else ""
-            )
+        if self.film.moving_ends or (self.volume_rate is not None and end < math.inf):
+            longest = quantity_text(end, "m")
+            found.append(f"the film breaks at {longest} at most: the gap depends on the motion")
         elif end < loading.final_gap:
             found.append(f"the film breaks at {quantity_text(end, 'm')}, before the final gap")
         if isinstance(loading, ImposedForce) and loading.mass is None:
@@ -304,8 +300,9 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
         raise PlanError(
             "an imposed force needs loading.mass [kg], or ViscousForce(), to set a speed"
         )
-    if film.end <= loading.initial_gap:
-        raise _too_wide(prepared, film.end)
+    reach = film.end_at(loading.initial_gap, getattr(loading, "initial_speed", 0.0))
+    if reach <= loading.initial_gap:
+        raise _too_wide(prepared, reach)
     check_rim(prepared)
     columns = _columns(scene)
     loss = scene.effect(VolumeLoss)

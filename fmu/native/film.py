@@ -116,9 +116,9 @@ def prepared_film(
     common = _Common(made, free_liquid(made.prepared), lowest, make)
     if made.moving_effects:
         raise PlanError(
-            f"{' and '.join(made.moving_effects)} has no native form: the tables of a native FMU are "
-            "over the gap alone, and volume or end of this film depend on the motion; build the "
-            "Python FMU (without --native), or run the scene with ck.simulate"
+            f"{' and '.join(made.moving_effects)} has no native form: the tables of a native FMU "
+            "are over the gap alone, and volume or end of this film depend on the motion; build "
+            "the Python FMU (without --native), or run the scene with ck.simulate"
         )
     _check_limits(common)
     tables = FilmTables(

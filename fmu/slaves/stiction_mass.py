@@ -301,7 +301,7 @@ def scene_of(values: Mapping[str, Any]) -> SeparationScene:
     """
     check_gaps(values)
     limit = tension_limit(values)
-    values = _OFF | values
+    values = {**_OFF, **values}
     law = values["meniscus_law"] if values["gamma"] > 0.0 else MeniscusLaw.NONE
     made = write(PLACES, _FILM, {**values, "meniscus_law": MeniscusLaw(law)})
     more = (*filter(None, (limit,)), *wetting_effects(values))

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from ...errors import DescriptionError
 from ...separation.wetting.cox_voinov import CoxVoinovAngle
@@ -18,6 +18,7 @@ from ...separation.wetting.weight import LiquidWeight
 from ..framework.ports import Port, size_port
 
 if TYPE_CHECKING:
+    from ...capillary.wetting.landau_levich import ThicknessLaw
     from ...scene.scenes import SeparationScene
     from ...separation.effects.base import SeparationEffect
 
@@ -48,8 +49,14 @@ class WeightOn(IntEnum):
     MOVING = 3
 
 
-_LAWS = {FilmLaw.AUSSILLOUS_QUERE: "aussillous-quere", FilmLaw.LANDAU_LEVICH: "landau-levich"}
-_BODIES = {WeightOn.FIXED: "lower", WeightOn.MOVING: "upper"}
+_LAWS: Mapping[FilmLaw, ThicknessLaw] = {
+    FilmLaw.AUSSILLOUS_QUERE: "aussillous-quere",
+    FilmLaw.LANDAU_LEVICH: "landau-levich",
+}
+_BODIES: Mapping[WeightOn, Literal["lower", "upper"]] = {
+    WeightOn.FIXED: "lower",
+    WeightOn.MOVING: "upper",
+}
 
 
 def _choice(name: str, label: str, start: IntEnum) -> Port:

@@ -343,8 +343,8 @@ def simulate(
     Raises
     ------
     PlanError
-        If the scene has no mass, does not impose a force, has a force of the solids, or a film whose
-        volume or end depends on the motion.
+        If the scene has no mass, does not impose a force, has a force of the solids, or a film
+        whose volume or end depends on the motion.
     DescriptionError
         If `end` is not positive and finite.
     ConvergenceError
@@ -361,7 +361,7 @@ def simulate(
         )
     if plan.moving_effects:
         raise PlanError(
-            f"a monolithic simulation knows films of a volume that stays and an end at a gap; leave "
+            "a monolithic simulation knows films of a volume that stays and an end at a gap; leave "
             f"out {' and '.join(plan.moving_effects)}, or take ck.simulate"
         )
     run = _Run(plan, drive, loading.moving_mass, rtol, faces)

@@ -16,8 +16,8 @@ from ...numerics.cubic_spline import cubic_spline
 
 __all__ = ["BridgeTable", "bridge_table"]
 
-# Nodes of the lattice of angles, from 0 to 180 degrees: every 5 degrees where one angle moves, every
-# 7.5 where two do and a motion comes near some fifty pairs, each of 6 ms between flats and 25 else.
+# Nodes of the lattice of angles, from 0 to 180 degrees: every 5 degrees where one angle moves, and
+# every 7.5 where two do: a motion comes near some fifty pairs, of 6 ms between flats and 25 else.
 _NODES, _PAIRS = 37, 25
 _NEAR = math.radians(0.5)
 _POINTS = 161  # bridges of a curve: right to 1e-6

@@ -1,4 +1,4 @@
-r"""A film that loses liquid in a step of the motion: its volume at the stages, and the forces there.
+r"""A film that loses liquid in a step of the motion: its volume at the stages, and its forces.
 
 .. math:: x_i = x_0 + \Delta t \sum_j a_{ij} \, \dot x(h_j, v_j, x_j)
 

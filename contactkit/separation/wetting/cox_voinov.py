@@ -251,7 +251,9 @@ class _MovedBridge:
         film = prepared.film
         found = bridge(gaps, film.volume, lower, upper, *prepared.curvatures, beyond="nan").force
         size = film.menisci * prepared.liquid.surface_tension
-        added = [size * f - at_rest.force(h, 0.0) for f, h in zip(found.tolist(), gaps, strict=True)]
+        added = [
+            size * f - at_rest.force(h, 0.0) for f, h in zip(found.tolist(), gaps, strict=True)
+        ]
         if not all(map(math.isfinite, added)):
             raise InfeasibleError(
                 f"CoxVoinovAngle: no meniscus spans every gap up to {end:.3g} m with the angles "

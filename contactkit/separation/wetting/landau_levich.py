@@ -235,8 +235,8 @@ class _Rate:
             )
         if gap < full:
             raise InfeasibleError(
-                f"LandauLevichFilm: at a gap of {gap:.3g} m the film fills its faces, which it does "
-                f"up to {full:.3g} m, and a line pinned at their rim does not move; give wider "
+                f"LandauLevichFilm: at a gap of {gap:.3g} m the film fills its faces, as it does up "
+                f"to {full:.3g} m, and a line pinned at their rim does not move; give wider "
                 "faces, or loading.rest_gap [m] beyond"
             )
         ca, most = self.capillary_number(gap, speed, part), _RANGES[self._law][1]

@@ -94,9 +94,7 @@ def _law(laws: Sequence[ForceLaw], at: Callable[[float], list[tuple[float, float
     return ForceLaw(force, rate=laws[0].rate)
 
 
-def films_of_volume(
-    whole: Film, films: Sequence[Film], least: float
-) -> Callable[[float], Film]:
+def films_of_volume(whole: Film, films: Sequence[Film], least: float) -> Callable[[float], Film]:
     """Film of any part of the volume of the scene.
 
     Parameters
@@ -140,9 +138,7 @@ def films_of_volume(
     return film_of
 
 
-def _scaled(
-    check: Callable[[float, float], None], ratio: float
-) -> Callable[[float, float], None]:
+def _scaled(check: Callable[[float, float], None], ratio: float) -> Callable[[float, float], None]:
     return lambda gap, speed: check(ratio * gap, speed)
 
 
