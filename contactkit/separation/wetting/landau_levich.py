@@ -58,7 +58,7 @@ class LandauLevichFilm(VolumeLoss):
 
     with radius and speed of the receding lines, and the curvature of the meridian there, of the
     exact bridge; the sum is over the bodies whose angle is 0. The volume is a state along the gap,
-    and every force of the film is that of the volume left.
+    or of the motion under a force, and every force of the film is that of the volume left.
 
     Parameters
     ----------
@@ -71,7 +71,8 @@ class LandauLevichFilm(VolumeLoss):
     A film is left only at an angle of 0: of a liquid that wets, or where `CoxVoinovAngle` says that
     the receding angle is 0. The laws differ by 10 % of the film at Ca = 5e-3 and by 35 % at 0.03.
     A line leaves a film only while it recedes, and the films stay: they neither drain nor feed the
-    bridge again. Of a liquid that wets the lines rest at some 0.6 of the limit of stability
+    bridge again, also where it comes back over them. After a rupture, what re-wets is
+    `Meniscus.rewetting` of the volume of the scene, films or not. Of a liquid that wets the lines rest at some 0.6 of the limit of stability
     and advance beyond. Forces of the volume left are interpolated between five volumes. Refused
     above Ca = 1 (0.1 with ``"landau-levich"``), and where less than 0.3 of the liquid is left.
     """
@@ -235,8 +236,8 @@ class _Rate:
             )
         if gap < full:
             raise InfeasibleError(
-                f"LandauLevichFilm: at a gap of {gap:.3g} m the film fills its faces, as it does up "
-                f"to {full:.3g} m, and a line pinned at their rim does not move; give wider "
+                f"LandauLevichFilm: at a gap of {gap:.3g} m the film fills its faces, as it does "
+                f"up to {full:.3g} m, and a line pinned at their rim does not move; give wider "
                 "faces, or loading.rest_gap [m] beyond"
             )
         ca, most = self.capillary_number(gap, speed, part), _RANGES[self._law][1]

@@ -51,7 +51,9 @@ class DynamicRupture(FilmEnd):
     where you have them. A computed viscous bridge between rods has a = 1.15, n = 2/3 up to Ca = 0.1
     (gallery page bridge-rupture): distances that are up to 6 % shorter. Between h_s and h_r the
     meniscus force keeps the value that it has at h_s, as no bridge in equilibrium is there: at most
-    that much too large. Viscous and extensional force follow the film. Refused above Ca = 1.
+    that much too large. Viscous and extensional force follow the film. Under a force it breaks
+    where its gap exceeds h_r of the speed at that instant: at h_s where it closes. Refused above
+    Ca = 1; under a force only beyond h_s.
     """
 
     name: ClassVar[str] = "dynamic-rupture"
