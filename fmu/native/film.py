@@ -116,7 +116,7 @@ def prepared_film(
     common = _Common(made, free_liquid(made.prepared), lowest, make)
     if made.moving_effects:
         raise PlanError(
-            f"{' and '.join(made.moving_effects)} has no native form: the tables of a native FMU "
+            f"a native FMU has no form of {', '.join(made.moving_effects)}: its tables "
             "are over the gap alone, and volume or end of this film depend on the motion; build "
             "the Python FMU (without --native), or run the scene with ck.simulate"
         )

@@ -258,33 +258,13 @@ def _stepped(
 ) -> Traced:
     """State after the longest step that meets the tolerance, or the first event inside it."""
     left = end - state.time
-    length = min(state.step or _first_length(problem, left), left)
-    rejected, evaluations = 0, 1
-    while True:
-        taken = step(problem, length)
-        error = math.inf
-        if taken is not None:
-            evaluations += taken.evaluations
-            error = _error(plan, state, problem, taken, length)
-            if error <= 1.0:
-                break
-        rejected += 1
-        length = _CONTROL.shorter(length, error)
-        if length < max(1e-15 * abs(state.time), _NO_TIME) or rejected > _MOST_REJECTED:
-            raise _no_step(state, problem.rtol)
+    taken, length, error, rejected, evaluations = _accepted(plan, state, problem, left)
     # A step that a span cut short shows no error: it must not make the next one short as well.
     is_cut = not rejected and length < state.step
     following = _CONTROL.following(length, error, state.step if is_cut else 0.0)
-    event = next_event(plan, film, state, taken.stages[2].gap)
-    if event is not None:
-        taken, length = _step_to_gap(problem, taken, length, event)
-    rupture = None
-    if film is not None and (film.moving_ends or plan.volume_rate is not None):
-        rupture = cut_at_rupture(problem, film, taken, length)
-        if rupture is not None:
-            (taken, length), event = rupture, None
-        if length == 0.0:
-            return Traced(broken(state))
+    taken, length, event, breaks = _cut(plan, film, state, problem, EventStep(taken, length))
+    if length == 0.0:
+        return Traced(broken(state))
     turn, cavity = None, state.cavity
     law = film.cavity if film is not None else None
     if law is not None:
@@ -317,7 +297,7 @@ def _stepped(
     )
     is_last = length == left
     _check(plan, film_at_end(film, taken) if film is not None else None, state)
-    if rupture is not None:
+    if breaks:
         state = broken(state)
     if event is not None:
         state = apply_event(plan, film, state, event)
@@ -331,6 +311,45 @@ def _check(plan: Plan, film: Film | None, state: MotionState) -> None:
     film.check(state.gap, state.speed)
     if plan.volume_rate is not None:
         plan.volume_rate.check(state.gap, state.speed, state.volume_fraction)
+
+
+def _accepted(
+    plan: Plan, state: MotionState, problem: StepProblem, left: float
+) -> tuple[Step, float, float, int, int]:
+    """Step that meets the tolerance, its length [s] and its error, steps rejected, evaluations."""
+    length = min(state.step or _first_length(problem, left), left)
+    rejected, evaluations = 0, 1
+    while True:
+        taken = step(problem, length)
+        error = math.inf
+        if taken is not None:
+            evaluations += taken.evaluations
+            error = _error(plan, state, problem, taken, length)
+            if error <= 1.0:
+                return taken, length, error, rejected, evaluations
+        rejected += 1
+        length = _CONTROL.shorter(length, error)
+        if length < max(1e-15 * abs(state.time), _NO_TIME) or rejected > _MOST_REJECTED:
+            raise _no_step(state, problem.rtol)
+
+
+def _cut(
+    plan: Plan, film: Film | None, state: MotionState, problem: StepProblem, whole: EventStep[Step]
+) -> tuple[Step, float, float | None, bool]:
+    """Step up to its first event, its length [s], and the gap of that event [m], if it has one.
+
+    And whether the film breaks there at a gap that depends on the motion; of length 0 if at once.
+    """
+    taken, length = whole
+    event = next_event(plan, film, state, taken.stages[2].gap)
+    if event is not None:
+        taken, length = _step_to_gap(problem, taken, length, event)
+    if film is None or not (film.moving_ends or plan.volume_rate is not None):
+        return taken, length, event, False
+    rupture = cut_at_rupture(problem, film, taken, length)
+    if rupture is None:
+        return taken, length, event, False
+    return *rupture, None, True
 
 
 def _part_left(state: MotionState, taken: Step) -> float:

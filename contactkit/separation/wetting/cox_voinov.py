@@ -245,7 +245,7 @@ class _MovedBridge:
         return film.menisci * liquid.surface_tension * size * more
 
     def curve(self, speed: float, end: float, at_rest: ForceLaw) -> Callable[[float], float]:
-        """What a speed that stays adds [N], over the gap up to its end: bridges solved for it.
+        """Force [N] that a constant speed adds, over the gap up to its end: bridges solved for it.
 
         Right to 1e-6 up to the end, where the table of all angles is off by some per cent.
         """

@@ -72,9 +72,10 @@ class LandauLevichFilm(VolumeLoss):
     the receding angle is 0. The laws differ by 10 % of the film at Ca = 5e-3 and by 35 % at 0.03.
     A line leaves a film only while it recedes, and the films stay: they neither drain nor feed the
     bridge again, also where it comes back over them. After a rupture, what re-wets is
-    `Meniscus.rewetting` of the volume of the scene, films or not. Of a liquid that wets the lines rest at some 0.6 of the limit of stability
-    and advance beyond. Forces of the volume left are interpolated between five volumes. Refused
-    above Ca = 1 (0.1 with ``"landau-levich"``), and where less than 0.3 of the liquid is left.
+    `Meniscus.rewetting` of the volume of the scene, films or not. Of a liquid that wets the lines
+    rest at some 0.6 of the limit of stability and advance beyond. Forces of the volume left are
+    interpolated between five volumes. Refused above Ca = 1 (0.1 with ``"landau-levich"``), and
+    where less than 0.3 of the liquid is left.
     """
 
     name: ClassVar[str] = "landau-levich-film"
@@ -180,13 +181,15 @@ class LandauLevichFilm(VolumeLoss):
         # Lines of similar bridges are as fast: of a motion, those of the whole volume are taken.
         part = (lambda gap: 1.0) if fraction is None else fraction
         fastest = max(rate.capillary_number(*place, part(place[0])) for place in path)
-        lost = "" if fraction is None else f"{1.0 - fraction(path[-1][0]):.1%}"
+        lost = "what stays behind is deposited_volume"
+        if fraction is not None:
+            lost = f"of the liquid {1.0 - fraction(path[-1][0]):.1%} stays behind"
         return (
             ValidityNumber(
                 name="capillary number of the receding line",
                 value=fastest,
                 high=_RANGES[self.law][0],
-                detail=f"of the liquid {lost or 'deposited_volume'} stays behind; law={self.law!r}",
+                detail=f"{lost}; law={self.law!r}",
                 source="eta U/gamma; Aussillous and Quere 2000",
             ),
         )
@@ -197,7 +200,9 @@ class _Rate:
 
     def __init__(self, effect: LandauLevichFilm, prepared: Prepared) -> None:
         self._law, self._prepared = effect.law, prepared
-        self._nodes = volume_nodes(LEAST_LEFT)
+        # Between flats bridges of all volumes have one shape.
+        is_flat = prepared.scene.interface.is_flat
+        self._nodes = (1.0,) if is_flat else volume_nodes(LEAST_LEFT)
         self._scenes = [with_fraction(prepared, node) for node in self._nodes]
         self._lines = [Lines(one) for one in self._scenes]
         moving = prepared.scene.effect(MovingAngle)
@@ -207,7 +212,8 @@ class _Rate:
     def end(self, part: float) -> float:
         """Gap at which the bridge of a part of the volume ends [m]."""
         weights = lagrange(self._nodes, part)
-        return sum(w * one.axis.end for w, one in zip(weights, self._lines, strict=True))
+        each = zip(weights, self._lines, self._nodes, strict=True)
+        return math.cbrt(part) * sum(w * one.axis.end / math.cbrt(x) for w, one, x in each)
 
     def __call__(self, gap: float, speed: float, part: float) -> float:
         """Rate [1/s] of the part of the volume that is left, at a gap [m] and a speed [m/s]."""

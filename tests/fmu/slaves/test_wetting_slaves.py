@@ -123,8 +123,8 @@ def test_a_native_fmu_refuses_by_name_what_depends_on_the_motion():
         made = scene(*EFFECTS[name])
         refuses(
             lambda made=made: prepared_film(moving(made, None)),
-            type(EFFECTS[name][0]).__name__, "no native form", "Python FMU", "ck.simulate",
-            error=ck.PlanError,
+            "native FMU has no form of", type(EFFECTS[name][0]).__name__, "Python FMU",
+            "ck.simulate", error=ck.PlanError,
         )  # fmt: skip
 
 

@@ -46,7 +46,7 @@ def run(*effects, **given):
     return ck.simulate(ck.plan(pulled(*effects, **given)))
 
 
-def coasting(*effects, speed=1e-3, **given):
+def unslowed(*effects, speed=1e-3, **given):
     """A mass so heavy that no film slows it, and the same film at its speed."""
     scene = pulled(*effects, force=0.0, mass=1e7, initial_speed=speed, **given)
     loading = scene.loading
@@ -73,7 +73,7 @@ def coasting(*effects, speed=1e-3, **given):
 def test_a_mass_that_nothing_slows_is_one_of_imposed_speed(effect, angle, upper):
     # Under the ball each pair of angles costs some 25 ms, and a short way has few.
     last = 4e-5 if upper is BALL and effect is COX else 3e-4
-    moved, imposed = coasting(MENISCUS, VISCOUS, effect, angle=angle, upper=upper, final_gap=last)
+    moved, imposed = unslowed(MENISCUS, VISCOUS, effect, angle=angle, upper=upper, final_gap=last)
     for name in ("meniscus_impulse", "viscous_impulse"):
         assert moved.impulses[name] == pytest.approx(imposed.impulses[name], rel=2e-3)
     end = imposed.plan.film.end
