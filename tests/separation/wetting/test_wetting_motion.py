@@ -262,6 +262,7 @@ def test_without_a_mass_the_film_sets_the_speed():
 
 
 @pytest.mark.hard
+@pytest.mark.slow
 def test_what_a_motion_reaches_and_a_law_does_not_know_is_refused_there():
     fast = {"force": 0.0, "mass": 1e7}
     closing = {"initial_speed": -1e-3, "force": 0.05}
@@ -366,8 +367,8 @@ def test_gradients_that_are_not_there_are_refused_by_name():
     ("curvatures", "is_even", "angles", "rtol"),
     [
         ((0.0, 0.0), True, (0.9, 0.9), 1e-4),
-        ((0.0, 0.0), False, (0.5, 0.8), 3e-4),
-        ((0.0, 0.043), False, (0.33, 0.3), 1e-4),
+        pytest.param((0.0, 0.0), False, (0.5, 0.8), 3e-4, marks=pytest.mark.slow),
+        pytest.param((0.0, 0.043), False, (0.33, 0.3), 1e-4, marks=pytest.mark.slow),
     ],
 )
 def test_a_table_of_bridges_is_that_of_bridges_solved_one_by_one(curvatures, is_even, angles, rtol):
