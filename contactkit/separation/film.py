@@ -52,6 +52,11 @@ class Film:
     """How the film cavitates, where that is remembered; None if its limits need no memory."""
     volume_fraction: Callable[[float], float] | None = field(default=None, kw_only=True)
     """Volume over that of the scene at a gap [m] of the imposed motion; None: it is kept."""
+    moving_ends: tuple[Callable[[float, float], float], ...] = field(default=(), kw_only=True)
+    """Gaps [m] at which the film breaks at a gap and a speed, where that depends on the motion;
+    `end` is then what it lasts to at most."""
+    checks: tuple[Callable[[float, float], None], ...] = field(default=(), kw_only=True)
+    """What refuses a gap and a speed that a motion has reached, where a law is not known."""
     kinks: tuple[float, ...] = field(init=False)
     release: float = field(init=False)
     recontact: float = field(init=False)
@@ -144,7 +149,24 @@ class Film:
             return None
         if broken:
             return Film(MappingProxyType(laws), (), math.inf, self.full_gap)
-        return Film(MappingProxyType(laws), self.limits, self.end, self.full_gap, self.cavity)
+        return Film(
+            MappingProxyType(laws),
+            self.limits,
+            self.end,
+            self.full_gap,
+            self.cavity,
+            moving_ends=self.moving_ends,
+            checks=self.checks,
+        )
+
+    def end_at(self, gap: float, speed: float) -> float:
+        """Gap [m] at which the film breaks, at a gap and a speed that a motion has reached."""
+        return min([self.end, *(end(gap, speed) for end in self.moving_ends)])
+
+    def check(self, gap: float, speed: float) -> None:
+        """Refuse a gap and a speed that a motion has reached, where a law is not known."""
+        for check in self.checks:
+            check(gap, speed)
 
     @property
     def is_limited(self) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
@@ -32,9 +32,11 @@ from .effects.base import (
     Limiter,
     LimitKind,
     MovingAngle,
+    MovingEnd,
     SeparationEffect,
     SeparationForce,
     VolumeLoss,
+    VolumeRate,
     effects_of,
 )
 from .effects.force_law import measured_rate, settled
@@ -77,6 +79,9 @@ class Plan(ScenePlan):
     """Columns a result of this plan may have, by their names."""
     _films: Mapping[float, Film] = field(repr=False)
     _left: Mapping[FilmState, Film | None] = field(repr=False)
+    volume_rate: VolumeRate | None = field(default=None, repr=False)
+    """Rate of the volume in a motion; None for a film that keeps it, or of which it is known."""
+    _film_of: Callable[[float], Film] | None = field(default=None, repr=False)
 
     @property
     def scene(self) -> SeparationScene:
@@ -88,20 +93,39 @@ class Plan(ScenePlan):
         """Numerical accuracy of the solution."""
         return self.prepared.accuracy
 
+    @property
+    def moving_effects(self) -> tuple[str, ...]:
+        """Effects by which volume or end of the film depend on the motion, by their names."""
+        return tuple(
+            type(effect).__name__
+            for effect in effects_of(self.scene)
+            if isinstance(effect, MovingAngle | VolumeLoss)
+            or (isinstance(effect, FilmEnd) and effect.prepare_moving(self.prepared) is not None)
+        )
+
     def film_with(self, volume_fraction: float) -> Film:
-        """Return the film of the volume of the scene, or of what re-wets of it."""
+        """Return the film of the volume of the scene, or of what is left or re-wets of it."""
+        if self._film_of is not None:
+            return self._film_of(volume_fraction)
         return self._films[volume_fraction]
 
     def remaining_film(
         self, volume_fraction: float, *, broken: bool, detached: bool
     ) -> Film | None:
         """Return what acts in a state: all, or what a broken film and detached solids leave."""
+        if self._film_of is not None:
+            film = self._film_of(volume_fraction)
+            return film.remaining(broken=broken, detached=detached) if broken or detached else film
         return self._left[FilmState(volume_fraction, broken, detached)]
 
-    def acting_film(self, gap: float) -> Film | None:
-        """Return what acts at a gap [m] during a monotonic opening: None if nothing does."""
+    def acting_film(self, gap: float, speed: float = 0.0) -> Film | None:
+        """Return what acts at a gap [m] during a monotonic opening: None if nothing does.
+
+        The speed [m/s] decides where the end of the film depends on it.
+        """
         film = self.film
-        return self.remaining_film(1.0, broken=gap > film.end, detached=gap > film.release)
+        broken = gap > film.end or (bool(film.moving_ends) and gap > film.end_at(gap, speed))
+        return self.remaining_film(1.0, broken=broken, detached=gap > film.release)
 
     def force(self, gap: ArrayLike, speed: ArrayLike = 0.0) -> Any:
         """Sum of the listed forces [N] at a gap and an opening speed; positive resists opening.
@@ -144,7 +168,7 @@ class Plan(ScenePlan):
         """
         import numpy as np
 
-        if self.film.volume_fraction is not None:
+        if self.film.volume_fraction is not None or self.volume_rate is not None:
             raise PlanError(
                 "plan.force(gap, speed) is not known for a film that loses liquid: its volume "
                 "depends on the motion before; take ck.simulate(plan), or leave out what takes it"
@@ -175,8 +199,11 @@ class Plan(ScenePlan):
         return found[0] if gaps.ndim == 0 else np.reshape(found, gaps.shape)
 
     def _force(self, gap: float, speed: float) -> float:
-        film = self.acting_film(float(gap))
-        return 0.0 if film is None else film.force(float(gap), float(speed))
+        film, gap, speed = self.acting_film(float(gap), float(speed)), float(gap), float(speed)
+        if film is None:
+            return 0.0
+        film.check(gap, speed)
+        return film.force(gap, speed)
 
     @property
     def forces(self) -> tuple[Column, ...]:
@@ -215,7 +242,10 @@ class Plan(ScenePlan):
         """See `ScenePlan.notes`."""
         loading, end = self.scene.loading, self.film.end
         found = []
-        if end < loading.final_gap:
+        if self.film.moving_ends or (self.volume_rate is not None and end < math.inf):
+            longest = quantity_text(end, "m")
+            found.append(f"the film breaks at {longest} at most: the gap depends on the motion")
+        elif end < loading.final_gap:
             found.append(f"the film breaks at {quantity_text(end, 'm')}, before the final gap")
         if isinstance(loading, ImposedForce) and loading.mass is None:
             found.append("no mass: speeds are those at which the film balances the pull")
@@ -270,12 +300,19 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
         raise PlanError(
             "an imposed force needs loading.mass [kg], or ViscousForce(), to set a speed"
         )
-    if film.end <= loading.initial_gap:
-        raise _too_wide(prepared, film.end)
+    reach = film.end_at(loading.initial_gap, getattr(loading, "initial_speed", 0.0))
+    if reach <= loading.initial_gap:
+        raise _too_wide(prepared, reach)
     check_rim(prepared)
+    columns = _columns(scene)
+    loss = scene.effect(VolumeLoss)
+    if loss is not None and isinstance(loading, ImposedForce):
+        nothing: Mapping[Any, Any] = MappingProxyType({})
+        rate, film_of = loss.volume_rate(prepared), _of_volume(prepared, film, loss)
+        return Plan(prepared, film, columns, nothing, nothing, rate, film_of)
     films = {1.0: film} | _rewetted(prepared, film)
     states = MappingProxyType(_states(films))
-    return Plan(prepared, film, _columns(scene), MappingProxyType(films), states)
+    return Plan(prepared, film, columns, MappingProxyType(films), states)
 
 
 def _columns(scene: SeparationScene) -> Mapping[str, Column]:
@@ -392,6 +429,7 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
     limits: list[tuple[LimitKind, Limiter]] = []
     cavity: Cavitation | None = None
     end, outlasts = math.inf, False
+    moving: list[MovingEnd] = []
     for effect in prepared.scene.effects:
         if isinstance(effect, SeparationForce):
             laws[type(effect)] = _law(prepared, effect)
@@ -403,15 +441,29 @@ def _film(prepared: PreparedScene[SeparationScene]) -> Film:
                 cavity = law
         elif isinstance(effect, FilmEnd):
             end, outlasts = effect.prepare(prepared), effect.outlasts
+            moving += filter(None, (effect.prepare_moving(prepared),))
     if not outlasts:
         end = min([end, *(law.end for law in laws.values())])
-    return Film(MappingProxyType(laws), tuple(limits), end, prepared.film.full_gap, cavity)
+    ends = [one.end_at for one in moving]
+    if not outlasts:
+        ends += [law.end_at for law in laws.values() if law.end_at is not None]
+    checks = [one.check for one in moving]
+    checks += [law.check for law in laws.values() if law.check is not None]
+    return Film(
+        MappingProxyType(laws),
+        tuple(limits),
+        end,
+        prepared.film.full_gap,
+        cavity,
+        moving_ends=tuple(ends),
+        checks=tuple(checks),
+    )
 
 
 def _as_it_moves(prepared: PreparedScene[SeparationScene], film: Film) -> Film:
     """Film along the imposed motion: with the volume it has left, where an effect takes some."""
     effect = prepared.scene.effect(VolumeLoss)
-    if effect is None:
+    if effect is None or isinstance(prepared.scene.loading, ImposedForce):
         return film
     from .wetting.losing_film import losing_film, volume_nodes
 
@@ -420,6 +472,28 @@ def _as_it_moves(prepared: PreparedScene[SeparationScene], film: Film) -> Film:
     nodes = volume_nodes(fraction(last))
     films = [_film(with_fraction(prepared, node)) for node in nodes]
     return losing_film(film, films, fraction, last)
+
+
+def _of_volume(
+    prepared: PreparedScene[SeparationScene], film: Film, loss: VolumeLoss
+) -> Callable[[float], Film]:
+    """Film of any part of the volume that a motion may leave of it.
+
+    Raises
+    ------
+    PlanError
+        If less re-wets than an effect that takes liquid knows.
+    """
+    from .wetting.losing_film import films_of_volume, volume_nodes
+
+    rewets = prepared.scene.meniscus.rewetting
+    if 0.0 < rewets < loss.least:
+        raise PlanError(
+            f"{type(loss).__name__} is known down to {loss.least:.0%} of the liquid, and "
+            f"interface.meniscus.rewetting is {rewets:g}: give 0, or {loss.least:g} or more"
+        )
+    films = [_film(with_fraction(prepared, node)) for node in volume_nodes(loss.least)]
+    return films_of_volume(film, films, loss.least)
 
 
 _RATES = {"none": "not depend on the speed", "proportional": "be proportional to the speed"}

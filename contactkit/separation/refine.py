@@ -97,7 +97,6 @@ def _marks(state: MotionState) -> tuple[Any, ...]:
         state.broken,
         state.in_contact,
         state.detached,
-        state.volume_fraction,
         state.cavity.phase,
     )
 

@@ -188,7 +188,8 @@ def _late_curves(
         given = np.array([left(h) for h in gap.tolist()])
     else:
         given = np.ones(gap.shape) if volume_fraction is None else volume_fraction()
-    return effect.late_curves(RunCurves(plan, gap, is_whole(plan, columns), given))
+    speed = columns["speed"] if "speed" in columns else np.zeros(gap.shape)
+    return effect.late_curves(RunCurves(plan, gap, speed, is_whole(plan, columns), given))
 
 
 def extremes_of(plan: Plan, columns: Mapping[str, Curve]) -> dict[str, float]:

@@ -239,7 +239,7 @@ def _motion_result(
     problem: str | None,
 ) -> SeparationResult:
     last = states[-1]
-    impulses = impulses_of_gaps(plan) | dict(last.impulses)
+    impulses = _impulses(plan, last)
     status, message = _outcome(plan, last, pull(last.time), problem)
     message += _rupture(states)
     if problem is None:
@@ -257,6 +257,20 @@ def _motion_result(
     extremes = {"peak_repulsion": max(-float(force.min()), 0.0)}
     curves = motion_curves(plan, states, shown)
     return SeparationResult(plan, status, message, curves, impulses, last, validity, work, extremes)
+
+
+def _impulses(plan: Plan, last: MotionState) -> dict[str, float]:
+    """Impulse of each force [N.s], and of a flowing liquid without limits.
+
+    Of a film that loses liquid the latter depends on the way, and is not known where limits act.
+    """
+    if plan.volume_rate is None:
+        return impulses_of_gaps(plan) | dict(last.impulses)
+    found = dict(last.impulses)
+    for kind in plan.film.laws:
+        if kind.newtonian is not None and kind is not plan.film.limited:
+            found[kind.newtonian.impulse.name] = found[kind.column.impulse.name]
+    return found
 
 
 def _outcome(plan: Plan, last: MotionState, pull: float, problem: str | None) -> tuple[str, str]:

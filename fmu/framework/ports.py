@@ -93,7 +93,8 @@ class Port:
     at_events : bool
         A real output that changes at events only, such as the time of a rupture.
     tabulated : bool
-        In a native FMU the tables of its scene hold it, so that it is no variable there.
+        In a native FMU the tables of its scene hold it, or have no such thing, so that it is no
+        variable there.
     depends_on : tuple of str, optional
         Inputs and parameters that an output follows without a step in between; ``()`` says
         none. If not given, a tool has to assume all of them.

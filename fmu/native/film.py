@@ -149,6 +149,12 @@ def prepared_film(
     tension = scene.effect(TensionLimit)
     lowest = max(1e-13, 1e-3 * loading.initial_gap)
     common = _Common(made, free_liquid(made.prepared), lowest, make)
+    if made.moving_effects:
+        raise PlanError(
+            f"a native FMU has no form of {', '.join(made.moving_effects)}: its tables "
+            "are over the gap alone, and volume or end of this film depend on the motion; build "
+            "the Python FMU (without --native), or run the scene with ck.simulate"
+        )
     _check_limits(common)
     tables = FilmTables(
         is_sphere=is_sphere,

@@ -54,6 +54,8 @@ class Travel(NamedTuple):
     last: float = 0.0
     cavity: Cavity = FULL
     changed: float = 0.0
+    part: float = 1.0
+    """Volume of the film over that of the scene at the end."""
 
 
 def travel(
@@ -89,6 +91,8 @@ def travel(
     if not isinstance(film.cavity, CavityLaw):  # others are refused when an FMU is built
         return Travel(_viscous(film, begin, end, length), static, fraction, last)
     viscous, cavity, changed = _with_memory(film.cavity, film, cavity, begin, end, length)
+    # Of what the cavity does not bound, such as a column of the liquid.
+    viscous += film.viscous_impulse(begin, end) - film.newtonian_impulse(begin, end)
     return Travel(viscous, static, fraction, last, cavity, fraction * changed / length)
 
 
@@ -155,7 +159,7 @@ def _stops(film: Film, begin: float, end: float, widest: float) -> Iterator[floa
 
 def _viscous(film: Film, begin: float, end: float, length: float) -> float:
     if not film.limits:
-        return film.newtonian_impulse(begin, end)
+        return film.viscous_impulse(begin, end)
     speed, total = (end - begin) / length, 0.0
     for start, stop, is_limited in _pieces(film, begin, end, speed):
         if is_limited:
@@ -164,7 +168,7 @@ def _viscous(film: Film, begin: float, end: float, length: float) -> float:
             mean = sum(w * gap * film.viscous_force(gap, speed)[0] for gap, w in gaps)
             total += width / speed * mean
         else:
-            total += film.newtonian_impulse(start, stop)
+            total += film.viscous_impulse(start, stop)
     return total
 
 

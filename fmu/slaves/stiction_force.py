@@ -28,7 +28,9 @@ from ..framework.ports import Port, find_port, grouped, input_port, output_port,
 from ..framework.slave import PortSlave
 from . import stiction_mass
 from .film_travel import Travel, travel
+from .moving_travel import is_moving, moving_travel
 from .tension import TENSIONS
+from .wetting import WETTING
 
 __all__ = ["Exchange", "StictionForce"]
 
@@ -42,8 +44,12 @@ class Exchange(IntEnum):
 
 _MOTION = ("h", "v")
 _FILM = ("h0", "R", "V", "N", "h_break")
-_MENISCUS = ("h", *_FILM, "gamma", "theta1", "theta2", "meniscus_law")
-_VISCOUS = (*_MOTION, *_FILM, "eta", *TENSIONS, "tau_lim")
+_LAW = ("gamma", "theta1", "theta2", "meniscus_law", "weight", "rho")
+# The speed decides where a film breaks, too, and beyond there is no force.
+_END = ("v", "eta", "slip", "slip_from", "a_break", "n_Ca")
+_MENISCUS = ("h", *_FILM, *_LAW, *_END)
+_MOVED = ("gamma", "theta1", "theta2", "meniscus_law", "slip", "slip_from", "trouton")
+_VISCOUS = (*_MOTION, *_FILM, "eta", *TENSIONS, "tau_lim", *_MOVED, "a_break", "n_Ca")
 _ALL = tuple(dict.fromkeys((*_VISCOUS, *_MENISCUS)))
 _KEPT = (
     "h0",
@@ -59,6 +65,7 @@ _KEPT = (
     "meniscus_law",
     *TENSIONS,
     "tau_lim",
+    *WETTING,
 )
 _DOUBT = 0.2  # coupling error beyond which the flag is raised
 _SAME = 1e-9  # gaps closer than this, relatively, are one
@@ -70,6 +77,7 @@ _GROUPS = {
     "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
     "motion": ("m_ref", "exchange"),
     "limits": (*TENSIONS, "tau_lim"),
+    "wetting": WETTING,
 }
 
 
@@ -144,6 +152,7 @@ _PORTS = (
     _of_mass("n_break"),
     _of_mass("r_cav", _VISCOUS),
     _of_mass("V_void"),
+    _of_mass("V_left", _MENISCUS),
     size_port("m_ref", "kg", "mass that the tool moves", 0.02, "g", exclusive=True),
     Port(
         "exchange",
@@ -216,7 +225,8 @@ class StictionForce(PortSlave):
         values = self.values
         gap, speed = values["h"], values["v"]
         film = self._film()
-        if film is None or gap >= film.end * (1.0 - _SAME):
+        end = film.end_at(gap, speed) if film is not None else 0.0
+        if film is None or gap >= end * (1.0 - _SAME):
             values.update(
                 F=0.0,
                 F_m=0.0,
@@ -225,6 +235,7 @@ class StictionForce(PortSlave):
                 k=0.0,
                 r_cav=0.0,
                 V_void=0.0,
+                V_left=0.0,
                 H_stable=_ENDLESS,
                 h_above=0.0,
                 state=int(FilmStatus.BROKEN),
@@ -243,12 +254,13 @@ class StictionForce(PortSlave):
             k=found.static_by_gap + found.viscous_by_gap,
             r_cav=edge,
             V_void=values["N"] * self.memory.cavity.void,
+            V_left=values["V"] * self.memory.volume_fraction,
             H_stable=values["m_ref"] / damping if damping > 0.0 else _ENDLESS,
             state=int(FilmStatus.FULL if whole else FilmStatus.BRIDGE),
             limit=int(film.acting_limit(found)),
         )
         above = below = 0.0
-        for mark in (*film.kinks, film.end):  # they ascend
+        for mark in (*film.kinks, end):  # they ascend
             if mark < gap * (1.0 - _SAME):
                 below = mark
             elif mark > gap * (1.0 + _SAME):
@@ -293,6 +305,8 @@ class StictionForce(PortSlave):
     def _go(self, step: float) -> tuple[Film | None, Travel]:
         """Film along the step, and what it gives there; one that re-wets, from h0 on."""
         before, film, gap = self.memory, self._film(), self.values["h"]
+        if film is not None and is_moving(self.plan):
+            return film, moving_travel(self.plan, before.volume_fraction, before.gap, gap, step)
         if film is not None:
             return film, travel(film, before.gap, gap, step, before.static, before.cavity)
         start, rewet = self.values["h0"], self.values["rewet"]
@@ -300,6 +314,8 @@ class StictionForce(PortSlave):
             film = self.plan.film_with(rewet)
             if start < film.end * (1.0 - _SAME):
                 rest = step * (start - gap) / (before.gap - gap)
+                if is_moving(self.plan):
+                    return film, moving_travel(self.plan, rewet, start, gap, rest)
                 return film, travel(film, start, gap, rest)
         return None, Travel(0.0, 0.0, 1.0)
 
@@ -312,17 +328,28 @@ class StictionForce(PortSlave):
     def _remember(self, film: Film | None, time: float, step: float, done: Travel) -> _Memory:
         values = self.values
         gap, broken, fraction = values["h"], self.memory.broken, self.memory.volume_fraction
-        if film is not None and gap >= film.end * (1.0 - _SAME):
+        if film is not None and self._breaks(film, done):
             broken = True
             values["t_break"], values["n_break"] = time + done.broken * step, values["n_break"] + 1
         elif broken and gap <= values["h0"] * (1.0 + _SAME) and values["rewet"] > 0.0:
             fraction = values["rewet"]
             broken = self.plan.film_with(fraction).end <= gap
+        if is_moving(self.plan) and film is not None:
+            fraction = done.part
         if broken:
             return _Memory(gap, 0.0, 0.0, fraction, True)
         now = self.plan.film_with(fraction)
         static = done.last if now is film else now.static_force(gap)
         return _Memory(gap, now.damping(gap), static, fraction, False, done.cavity)
+
+    def _breaks(self, film: Film, done: Travel) -> bool:
+        """Whether a film that was whole is broken at the end of a step."""
+        gap, speed = self.values["h"], self.values["v"]
+        if done.broken < 1.0:
+            return True
+        if is_moving(self.plan):
+            film = self.plan.film_with(done.part)
+        return bool(gap >= film.end_at(gap, speed) * (1.0 - _SAME))
 
     def _doubt(self, step: float, damping: float) -> None:
         """Compare the force at the end with that on the way, and the step with m/c."""

@@ -42,6 +42,7 @@ from ..framework.ports import (
 )
 from ..framework.slave import PortSlave
 from .tension import TENSIONS, as_written, tension_limit, tension_values
+from .wetting import WETTING, WETTING_PORTS, check_wetting, wetting_effects, wetting_values
 
 __all__ = ["MeniscusLaw", "StictionMass", "check_gaps", "mass_values", "scene_of"]
 
@@ -56,8 +57,10 @@ class MeniscusLaw(IntEnum):
 
 
 _SHAPE = ("h0", "R", "V", "N")
-_MENISCUS = (*_SHAPE, "gamma", "theta1", "theta2", "meniscus_law")
-_VISCOUS = (*_SHAPE, "v0", "eta", *TENSIONS, "tau_lim")
+_MENISCUS = (*_SHAPE, "gamma", "theta1", "theta2", "meniscus_law", "weight", "rho")
+# Beside the viscous force the speed adds what it changes of the angles of the meniscus.
+_MOVED = ("gamma", "theta1", "theta2", "meniscus_law", "slip", "slip_from", "trouton")
+_VISCOUS = (*_SHAPE, "v0", "eta", *TENSIONS, "tau_lim", *_MOVED)
 _ALL = tuple(dict.fromkeys((*_MENISCUS, *_VISCOUS)))
 
 
@@ -66,6 +69,7 @@ _GROUPS = {
     "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
     "motion": ("m", "v0", "k_s", "h_rel", "h_min"),
     "limits": (*TENSIONS, "tau_lim"),
+    "wetting": WETTING,
     "numerics": ("rtol", "max_steps"),
 }
 
@@ -129,6 +133,16 @@ _PORTS = (
         "r_cav", "m", "radius of the cavity", _VISCOUS, display_unit="mm", minimum=0.0, nominal=1e-3
     ),
     output_port("V_void", "m3", "void in the film", display_unit="mm3", minimum=0.0, nominal=1e-10),
+    output_port(
+        "V_left",
+        "m3",
+        "volume of the liquid that is left in the film; 0 for a flooded one",
+        ("V",),
+        display_unit="mm3",
+        minimum=0.0,
+        nominal=1e-10,
+        tabulated=True,
+    ),
     size_port("m", "kg", "moving mass", 0.02, "g", exclusive=True),
     size_port("h0", "m", "gap at the start", 5e-6, "um", exclusive=True),
     Port("v0", "m/s", causality="parameter", label="opening speed at the start", start=0.0),
@@ -200,6 +214,7 @@ _PORTS = (
         "dp_hold", "Pa", "ambient pressure less that in the cavity; 0: as dp_inception", 0.0, "bar"
     ),
     size_port("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
+    *WETTING_PORTS,
     tolerance(1e-8),
     step_limit(PYTHON_STEPS),
 )
@@ -234,6 +249,7 @@ PLACES: Mapping[str, Place] = {
     ),
     "tau_lim": Place("strength", ShearLimit, nothing=0.0),
     "h_break": Place("gap", Rupture, nothing=0.0),
+    "rho": Place("interface.meniscus.liquid.density", nothing=0.0),
 }
 """Where each parameter of the film and the mass stands in a scene, but for its tension limit."""
 
@@ -251,6 +267,10 @@ _FILM = SeparationScene(
 """Scene whose fields the parameters fill in."""
 
 
+_OFF = {"h_break": 0.0} | {port.name: port.start for port in WETTING_PORTS}
+"""What wetting depends on, where it is off."""
+
+
 def check_gaps(values: Mapping[str, Any]) -> None:
     """Refuse gaps, or tensions, of a film that contradict each other; those there are.
 
@@ -259,6 +279,7 @@ def check_gaps(values: Mapping[str, Any]) -> None:
     DescriptionError
         Naming the two.
     """
+    check_wetting({name: values.get(name, start) for name, start in _OFF.items()})
     tension_limit({name: values.get(name, 0.0) for name in (*TENSIONS, "tau_lim")})
     start = values["h0"]
     if values.get("h_rel", math.inf) <= start:
@@ -280,9 +301,11 @@ def scene_of(values: Mapping[str, Any]) -> SeparationScene:
     """
     check_gaps(values)
     limit = tension_limit(values)
+    values = {**_OFF, **values}
     law = values["meniscus_law"] if values["gamma"] > 0.0 else MeniscusLaw.NONE
     made = write(PLACES, _FILM, {**values, "meniscus_law": MeniscusLaw(law)})
-    return made if limit is None else evolve(made, effects=(*made.effects, limit))
+    more = (*filter(None, (limit,)), *wetting_effects(values))
+    return evolve(made, effects=(*made.effects, *more)) if more else made
 
 
 def mass_values(scene: SeparationScene) -> dict[str, Any]:
@@ -307,6 +330,7 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     settled = _same_form(scene)
     liquid = scene.meniscus.liquid.at(scene.temperature)
     values = read(PLACES, settled, liquid) | tension_values(scene.effect(TensionLimit))
+    values |= wetting_values(scene)
     numbers = {port.name: port.read(values.get(port.name, port.start)) for port in PORTS}
     lost = differences(settled, scene_of(numbers), _NOT_HELD)
     if lost:
@@ -399,6 +423,8 @@ class StictionMass(PortSlave):
         values["F"], values["F_m"], values["F_v"] = shown.film, shown.static, shown.viscous
         values["state"], values["limit"] = int(shown.status), int(shown.limit)
         values["r_cav"], values["V_void"] = shown.cavity_radius, shown.void
+        left = 0.0 if state.broken else state.volume_fraction
+        values["V_left"] = values["V"] * left
         values["h"], values["v"] = state.gap, state.speed
         values["J"] = state.impulses["viscous_impulse"]
         values["J_m"] = state.impulses.get("meniscus_impulse", 0.0)

@@ -343,7 +343,8 @@ def simulate(
     Raises
     ------
     PlanError
-        If the scene has no mass, does not impose a force, or has a force of the solids.
+        If the scene has no mass, does not impose a force, has a force of the solids, or a film
+        whose volume or end depends on the motion.
     DescriptionError
         If `end` is not positive and finite.
     ConvergenceError
@@ -357,6 +358,11 @@ def simulate(
     if not all(kind.needs_film for kind in plan.film.laws):
         raise PlanError(
             "a monolithic simulation knows forces of the film only; leave out those of the solids"
+        )
+    if plan.moving_effects:
+        raise PlanError(
+            "a monolithic simulation knows films of a volume that stays and an end at a gap; leave "
+            f"out {' and '.join(plan.moving_effects)}, or take ck.simulate"
         )
     run = _Run(plan, drive, loading.moving_mass, rtol, faces)
     switches = law.switching_times(drive.profile, 0.0, end) if isinstance(drive, Valve) else []

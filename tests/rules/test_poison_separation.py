@@ -115,7 +115,11 @@ ROUGH = {
 
 # Dynamic wetting takes a film that does not fill the faces, and mostly a meniscus at a speed.
 WET = {"capillary.wetting.weight.*", "lubrication.dimensionless.bond_number", *EXACT_SPHERE}
-COX = {"capillary.wetting.cox_voinov.*", *EXACT_SPHERE}
+COX = {
+    "capillary.wetting.cox_voinov.*",
+    "capillary.wetting.moving_bridge.*",
+    *EXACT_SPHERE,
+}
 WETTING = {
     ck.LiquidWeight(): {"sphere": WET},
     ck.LiquidWeight(body="lower"): {"sphere": WET},

@@ -47,12 +47,14 @@ __all__ = [
     "LimitPart",
     "Limiter",
     "MovingAngle",
+    "MovingEnd",
     "PlanView",
     "RunCurves",
     "RunView",
     "SeparationEffect",
     "SeparationForce",
     "VolumeLoss",
+    "VolumeRate",
     "effects_of",
 ]
 
@@ -105,6 +107,10 @@ class FilmView(Protocol):
     def volume_fraction(self) -> Callable[[float], float] | None:
         """Volume over that of the scene at a gap [m]; None for a film that keeps it."""
 
+    @property
+    def moving_ends(self) -> tuple[Callable[[float, float], float], ...]:
+        """Gaps at which it breaks [m], at a gap and a speed; empty where that is its `end`."""
+
 
 class PlanView(Protocol):
     """Plan of a separation as an effect sees it: its scene, what is prepared, and the forces."""
@@ -120,6 +126,10 @@ class PlanView(Protocol):
     @property
     def film(self) -> FilmView:
         """Forces of the film."""
+
+    @property
+    def volume_rate(self) -> VolumeRate | None:
+        """Rate of the volume in a motion; None for a film that keeps it."""
 
     def film_with(self, fraction: float) -> FilmView:
         """Return the forces with a fraction of the volume of the liquid."""
@@ -151,14 +161,27 @@ class RunView(Protocol):
         """Return a curve by its name."""
 
 
+class MovingEnd(NamedTuple):
+    """Gap [m] at which a film breaks, at a gap and a speed.
+
+    `check` raises an InfeasibleError at a place that a motion has reached and where it is not
+    known; `end_at` is also asked where a step only tries.
+    """
+
+    end_at: Callable[[float, float], float]
+    check: Callable[[float, float], None]
+
+
 class RunCurves(NamedTuple):
     """Curves of a run, from which others follow.
 
-    `gap` [m], whether the film is `whole` there, and the volume of the film over that of the scene.
+    `gap` [m], `speed` [m/s] (0 where none is known), whether the film is `whole` there, and the
+    volume of the film over that of the scene.
     """
 
     plan: PlanView
     gap: Curve
+    speed: Curve
     whole: NDArray[np.bool_]
     volume_fraction: Curve
 
@@ -351,6 +374,13 @@ class FilmEnd(SeparationEffect):
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> float:
         """Gap at which the film breaks [m]; inf for never."""
 
+    def prepare_moving(self, prepared: PreparedScene[SeparationScene]) -> MovingEnd | None:
+        """Gap at which the film breaks where that depends on the motion; None if it does not.
+
+        `prepare` then gives the largest one.
+        """
+        return None
+
 
 @frozen(kw_only=True)
 class MovingAngle(SeparationEffect):
@@ -365,13 +395,30 @@ class MovingAngle(SeparationEffect):
         """Contact angles over gap and speed, for the volume of a prepared scene."""
 
 
+class VolumeRate(Protocol):
+    """Rate of the volume of a film over that of the scene."""
+
+    def __call__(self, gap: float, speed: float, part: float) -> float:
+        """Rate [1/s] at a gap [m], a speed [m/s] and a part of the volume [-]."""
+
+    def check(self, gap: float, speed: float, part: float) -> None:
+        """Raise an InfeasibleError where a motion has come to and the rate is not known."""
+
+
 @frozen(kw_only=True)
 class VolumeLoss(SeparationEffect):
-    """Liquid that leaves the film along an imposed motion; none or one."""
+    """Liquid that leaves the film along a motion; none or one."""
+
+    least: ClassVar[float] = 0.0
+    """Least part of the volume that its rate is known for."""
 
     @abc.abstractmethod
     def volume_fraction(self, prepared: PreparedScene[SeparationScene]) -> Callable[[float], float]:
-        """Volume of the film over that of the scene [-], at a gap [m] of the imposed motion."""
+        """Volume of the film over that of the scene [-], at a gap [m] of an imposed motion."""
+
+    @abc.abstractmethod
+    def volume_rate(self, prepared: PreparedScene[SeparationScene]) -> VolumeRate:
+        """Rate of the volume in a motion that is not known before."""
 
 
 @frozen(kw_only=True)

@@ -75,6 +75,12 @@ class ForceLaw:
     exponent : callable, optional
         n at a gap, of a damping that falls as gap^-n; None: measured. It only sets in which
         coordinate a step is solved.
+    end_at : callable, optional
+        Gap [m] beyond which it does not exist at a gap and a speed, `end` at most, where that
+        depends on the motion.
+    check : callable, optional
+        Raises an InfeasibleError at a gap and a speed at which the law is not known. It is called
+        where a motion gets to; the law itself is also asked where a step only tries.
     impulse : callable, optional
         Time integral [N.s] between two gaps, which no path in time changes, of a law that is
         proportional to speed; None: by quadrature.
@@ -101,6 +107,8 @@ class ForceLaw:
     slopes: Callable[[float, float], tuple[float, float]] | None = field(default=None, kw_only=True)
     rate: Rate = field(default="any", validator=choice("any", "none", "proportional"), kw_only=True)
     exponent: Callable[[float], float] | None = field(default=None, kw_only=True)
+    end_at: Callable[[float, float], float] | None = field(default=None, kw_only=True)
+    check: Callable[[float, float], None] | None = field(default=None, kw_only=True)
     impulse: Callable[[float, float], float] | None = field(default=None, kw_only=True)
 
     def static_slope(self, gap: float) -> tuple[float, float]:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...errors import ConvergenceError
 from ...scene.column import Column
-from .base import MovingAngle
+from .base import MovingAngle, VolumeLoss
 from .prepared import with_fraction
 
 if TYPE_CHECKING:
@@ -41,6 +42,15 @@ class MeniscusShape(NamedTuple):
     upper: Curve
     pressure: Curve
     volume: Curve
+
+
+def _end_of(run: RunCurves) -> float:
+    """Gap [m] at which the film breaks; nan where the motion decides it and it did not break."""
+    film = run.plan.film
+    if not film.moving_ends and run.plan.volume_rate is None:
+        return film.end
+    broke = (run.whole[:-1] & ~run.whole[1:]).nonzero()[0]
+    return float(run.gap[broke[-1]]) if broke.size else math.nan
 
 
 class _Moved(NamedTuple):
@@ -95,9 +105,9 @@ def shape_curves(
 
     moved = _moved(run)
     if moved is not None:
-        here = run.whole
-        gaps = np.minimum(run.gap[here], plan.film.end * _JUST_BELOW)
-        fill(here, meniscus_shape(plan.prepared, profile, gaps, moved=moved), plan.film.end)
+        here, end = run.whole, _end_of(run)
+        gaps = np.fmin(run.gap[here], end * _JUST_BELOW)
+        fill(here, meniscus_shape(plan.prepared, profile, gaps, moved=moved), end)
     else:
         for fraction in np.unique(run.volume_fraction[run.whole]).tolist():
             here = run.whole & (run.volume_fraction == fraction)
@@ -116,15 +126,15 @@ def _moved(run: RunCurves) -> _Moved | None:
 
     plan = run.plan
     moving = plan.scene.effect(MovingAngle)
-    if moving is None and plan.film.volume_fraction is None:
+    if moving is None and plan.scene.effect(VolumeLoss) is None:
         return None
     volume = plan.prepared.film.volume * run.volume_fraction[run.whole]
     if moving is None:
         lower, upper = (np.full(volume.shape, angle) for angle in plan.prepared.angles)
         return _Moved(volume, (lower, upper))
-    speed = getattr(plan.scene.loading, "speed", 0.0)
     angles = moving.prepare_angles(plan.prepared)
-    found = [angles(gap, speed) for gap in run.gap[run.whole].tolist()]
+    places = zip(run.gap[run.whole].tolist(), run.speed[run.whole].tolist(), strict=True)
+    found = [angles(gap, speed) for gap, speed in places]
     lower, upper = np.reshape(found, (-1, 2)).T
     return _Moved(volume, (lower, upper))
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from attrs import field, frozen
 
-from ...errors import DescriptionError
+from ...errors import DescriptionError, NotSimulatedError
 from ...lubrication import dimensionless as numbers
 from ...lubrication import film_limits
 from ...lubrication import squeeze_film as squeeze
@@ -66,8 +66,20 @@ class ViscousPart(ForcePart):
 
     @property
     def newtonian_impulse(self) -> float:
-        """Time integral of the force of the film without limits [N.s]."""
-        return self.result.impulses["newtonian_impulse"]
+        """Time integral of the force of the film without limits [N.s].
+
+        Raises
+        ------
+        NotSimulatedError
+            If the film loses liquid under limits: the way decides, and was not taken without them.
+        """
+        found = self.result.impulses.get("newtonian_impulse")
+        if found is None:
+            raise NotSimulatedError(
+                "no impulse without limits of a film that loses liquid: it depends on the motion; "
+                "simulate it without the limits"
+            )
+        return found
 
     def mean_force(self, time: float | None = None) -> float:
         """Time average [N] of the force over an opening that takes `time` [s]: impulse/time.

@@ -28,8 +28,9 @@ from ..integrator.radau import (
 )
 from ..plan import Film, Plan
 from .cavity import after, cavity_film, cut_at_event, cut_before_step
-from .events import SAME, apply_event, next_event
+from .events import SAME, apply_event, broken, cut_at_rupture, next_event
 from .state import MotionState, Pull, PullLaw, acting_film
+from .volume import VolumeStages, film_at_end, losing_step
 
 __all__ = ["Traced", "advance", "internal_step", "moving_mass", "step_cost", "traced_step"]
 
@@ -187,6 +188,10 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
     loading, mass = plan.scene.imposed_force, moving_mass(plan)
     gap, speed, rtol = state.gap, state.speed, plan.accuracy.time_rtol
     cavity = cavity_film(film, state.cavity, (gap, speed))
+    losing = losing_step(plan, state)
+    remembered = cavity.remembered if cavity is not None else None
+    if losing is not None:  # the plan refuses both
+        remembered = losing.remembered
     forces = film.forces if film is not None else _no_forces
     forces = forces if cavity is None else cavity.forces
     first = forces(gap, speed)
@@ -210,7 +215,7 @@ def _problem(plan: Plan, film: Film | None, state: MotionState, pull: PullLaw) -
         delivered=state.applied_impulse + mass * abs(speed),
         # Where no force acts yet, a film still has a scale: differences of speed count.
         scale=max(size / damping, 1e-15 * crossing) if damping > 0.0 else crossing,
-        remembered=cavity.remembered if cavity is not None else None,
+        remembered=remembered,
         taken=sum(
             abs(state.impulses.get(column.impulse.name, 0.0)) for column in plan.film.moving_columns
         ),
@@ -253,26 +258,13 @@ def _stepped(
 ) -> Traced:
     """State after the longest step that meets the tolerance, or the first event inside it."""
     left = end - state.time
-    length = min(state.step or _first_length(problem, left), left)
-    rejected, evaluations = 0, 1
-    while True:
-        taken = step(problem, length)
-        error = math.inf
-        if taken is not None:
-            evaluations += taken.evaluations
-            error = _error(plan, state, problem, taken, length)
-            if error <= 1.0:
-                break
-        rejected += 1
-        length = _CONTROL.shorter(length, error)
-        if length < max(1e-15 * abs(state.time), _NO_TIME) or rejected > _MOST_REJECTED:
-            raise _no_step(state, problem.rtol)
+    taken, length, error, rejected, evaluations = _accepted(plan, state, problem, left)
     # A step that a span cut short shows no error: it must not make the next one short as well.
     is_cut = not rejected and length < state.step
     following = _CONTROL.following(length, error, state.step if is_cut else 0.0)
-    event = next_event(plan, film, state, taken.stages[2].gap)
-    if event is not None:
-        taken, length = _step_to_gap(problem, taken, length, event)
+    taken, length, event, breaks = _cut(plan, film, state, problem, EventStep(taken, length))
+    if length == 0.0:
+        return Traced(broken(state))
     turn, cavity = None, state.cavity
     law = film.cavity if film is not None else None
     if law is not None:
@@ -292,6 +284,7 @@ def _stepped(
         gap=gap,
         speed=speed,
         cavity=cavity,
+        volume_fraction=_part_left(state, taken),
         impulses=_added(state.impulses, grown),
         dissipated_work=state.dissipated_work + _work(problem, taken),
         applied_impulse=state.applied_impulse + length * problem.size,
@@ -303,9 +296,66 @@ def _stepped(
         n_evaluations=state.n_evaluations + evaluations,
     )
     is_last = length == left
+    _check(plan, film_at_end(film, taken) if film is not None else None, state)
+    if breaks:
+        state = broken(state)
     if event is not None:
         state = apply_event(plan, film, state, event)
     return Traced(state, problem, taken, length, event, is_last)
+
+
+def _check(plan: Plan, film: Film | None, state: MotionState) -> None:
+    """Refuse a state in which a law is not known."""
+    if film is None or state.broken:
+        return
+    film.check(state.gap, state.speed)
+    if plan.volume_rate is not None:
+        plan.volume_rate.check(state.gap, state.speed, state.volume_fraction)
+
+
+def _accepted(
+    plan: Plan, state: MotionState, problem: StepProblem, left: float
+) -> tuple[Step, float, float, int, int]:
+    """Step that meets the tolerance, its length [s] and its error, steps rejected, evaluations."""
+    length = min(state.step or _first_length(problem, left), left)
+    rejected, evaluations = 0, 1
+    while True:
+        taken = step(problem, length)
+        error = math.inf
+        if taken is not None:
+            evaluations += taken.evaluations
+            error = _error(plan, state, problem, taken, length)
+            if error <= 1.0:
+                return taken, length, error, rejected, evaluations
+        rejected += 1
+        length = _CONTROL.shorter(length, error)
+        if length < max(1e-15 * abs(state.time), _NO_TIME) or rejected > _MOST_REJECTED:
+            raise _no_step(state, problem.rtol)
+
+
+def _cut(
+    plan: Plan, film: Film | None, state: MotionState, problem: StepProblem, whole: EventStep[Step]
+) -> tuple[Step, float, float | None, bool]:
+    """Step up to its first event, its length [s], and the gap of that event [m], if it has one.
+
+    And whether the film breaks there at a gap that depends on the motion; of length 0 if at once.
+    """
+    taken, length = whole
+    event = next_event(plan, film, state, taken.stages[2].gap)
+    if event is not None:
+        taken, length = _step_to_gap(problem, taken, length, event)
+    if film is None or not (film.moving_ends or plan.volume_rate is not None):
+        return taken, length, event, False
+    rupture = cut_at_rupture(problem, film, taken, length)
+    if rupture is None:
+        return taken, length, event, False
+    return *rupture, None, True
+
+
+def _part_left(state: MotionState, taken: Step) -> float:
+    """Volume of the film over that of the scene at the end of a step."""
+    found = taken.memory.found if taken.memory is not None else None
+    return found.parts[2] if isinstance(found, VolumeStages) else state.volume_fraction
 
 
 def _first_length(problem: StepProblem, left: float) -> float:
@@ -375,8 +425,10 @@ def _impulses(film: Film | None, taken: Step, length: float) -> dict[str, float]
     if film is None:
         return {}
     b1, b2, b3 = (length * weight for weight in WEIGHTS)
-    pairs = zip(taken.stages, taken.forces, strict=True)
-    stages = (film.split(point.gap, point.speed, forces) for point, forces in pairs)
+    found = taken.memory.found if taken.memory is not None else None
+    films = found.films if isinstance(found, VolumeStages) else (film, film, film)
+    trios = zip(films, taken.stages, taken.forces, strict=True)
+    stages = (one.split(point.gap, point.speed, forces) for one, point, forces in trios)
     each = zip(film.impulse_names, *stages, strict=True)
     return {name: b1 * one + b2 * two + b3 * three for name, one, two, three in each}
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from ...numerics.events import first_crossing
+from ...numerics.events import EventStep, first_crossing, step_to_event
 from ..cavity.state import FULL
+from ..integrator.radau import Step, StepProblem, step
 from ..plan import Film, Plan
 from .state import MotionState
+from .volume import film_at_end
 
-__all__ = ["SAME", "apply_event", "closed_gap", "next_event"]
+__all__ = ["SAME", "apply_event", "broken", "closed_gap", "cut_at_rupture", "next_event"]
+
+_MISS = 1e-11  # of the gap at which a film breaks, where that depends on the motion
 
 SAME = 1e-11  # two gaps closer than this, relatively, are one
 
@@ -39,6 +43,35 @@ def next_event(plan: Plan, film: Film | None, state: MotionState, gap: float) ->
     return first_crossing(events, state.gap, gap, SAME)
 
 
+def cut_at_rupture(
+    problem: StepProblem, film: Film, taken: Step, length: float
+) -> EventStep[Step] | None:
+    """Step that ends where the film breaks, at a gap that depends on the motion; None if not in it.
+
+    Of length 0 if it breaks where the step starts: slower than a moment ago, beyond its end.
+    """
+
+    def beyond(one: Step) -> float:
+        _, gap, speed = one.stages[2]
+        return gap / film_at_end(film, one).end_at(gap, speed) - 1.0
+
+    ahead = beyond(taken)
+    if ahead <= 0.0:
+        return None
+    _, gap, speed = problem.begin
+    behind = gap / film.end_at(gap, speed) - 1.0
+    if behind >= -_MISS:
+        return EventStep(taken, 0.0)
+    return step_to_event(lambda dt: step(problem, dt), beyond, behind, taken, length, _MISS)
+
+
+def broken(state: MotionState) -> MotionState:
+    """State of a film that breaks."""
+    return state._replace(
+        broken=True, cavity=FULL, break_time=state.time, n_breaks=state.n_breaks + 1
+    )
+
+
 def apply_event(plan: Plan, film: Film | None, state: MotionState, gap: float) -> MotionState:
     """State after the event at a gap: release, rupture, rest, re-wetting, pull-off, re-contact."""
     loading, meniscus = plan.scene.imposed_force, plan.scene.meniscus
@@ -52,9 +85,7 @@ def apply_event(plan: Plan, film: Film | None, state: MotionState, gap: float) -
                 n_releases=state.n_releases + 1,
             )
         if film is not None and gap == film.end:
-            state = state._replace(
-                broken=True, cavity=FULL, break_time=state.time, n_breaks=state.n_breaks + 1
-            )
+            state = broken(state)
         if film is not None and gap == film.release:
             state = state._replace(detached=True)
         return state

@@ -145,7 +145,8 @@ def motion_slopes(
     Raises
     ------
     NotSimulatedError
-        If the mass rests on asperities, or the film cavitates with a memory.
+        If the mass rests on asperities, the film cavitates with a memory or loses liquid, or breaks
+        at a gap that depends on the speed.
     ConvergenceError
         If no step of time meets the tolerance, or the steps are used up.
     """
@@ -194,6 +195,11 @@ class _Motion:
         return np.array([one.slope(of) for one in self.variations])
 
     def _check(self) -> None:
+        if self.plan.volume_rate is not None:
+            raise NotSimulatedError(
+                "no gradient of a film that loses liquid (LandauLevichFilm), whose volume is a "
+                "state of its own: take differences of whole motions (ck.sensitivity)"
+            )
         if self.state.in_contact:
             raise NotSimulatedError(
                 "no gradient of a motion that rests on asperities: it leaves them at a time of its "
@@ -229,6 +235,12 @@ class _Motion:
 
     def _check_step(self, before: MotionState, traced: Traced) -> None:
         self._check()
+        if traced.event is None and traced.state.broken and not before.broken:
+            raise NotSimulatedError(
+                "no gradient of a film that breaks at a gap which depends on its speed "
+                "(DynamicRupture, CoxVoinovAngle): take differences of whole motions "
+                "(ck.sensitivity), or a loading.final_gap before it breaks"
+            )
         if traced.state.cavity.phase is not before.cavity.phase:
             self.state = traced.state._replace(n_inceptions=1)
             self._check()

@@ -14,7 +14,7 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...numerics.cubic_spline import cubic_spline
-from ...scene.loading import ImposedSpeed
+from ...scene.loading import ImposedForce, ImposedSpeed
 from ..effects.base import VolumeLoss
 from ..effects.meniscus import MeniscusForce
 from ..effects.meniscus_sphere import exact_end, thin_gap
@@ -32,6 +32,7 @@ _POINTS = 161  # of a curve: radii and pressure right to 1e-6, their slopes to 1
 LEAST_LEFT = 0.3
 """Least volume over that of the scene: of five volumes from there on lines are right to 1e-4."""
 _KEPT = 16  # bridges whose curves are kept: plan, ranges and late curves ask for five volumes each
+_CLOSED = 1e-3  # of the first gap, to which a mass may close it
 _JUST_BELOW = 1.0 - 1e-6  # of the end, at which a bridge has no slope
 # Of the end, from where on the speed of a line stays: in equilibrium it is infinite at the fold,
 # which no line follows.
@@ -134,18 +135,23 @@ def _curves(
 
 def _first_gap(prepared: PreparedScene[SeparationScene]) -> float:
     """Smallest gap [m] that is asked for: films of less volume are taken at smaller gaps."""
-    loses = prepared.scene.effect(VolumeLoss) is not None
-    return prepared.scene.loading.initial_gap * (math.cbrt(LEAST_LEFT) if loses else 1.0)
+    loading, loses = prepared.scene.loading, prepared.scene.effect(VolumeLoss) is not None
+    first = loading.initial_gap
+    if isinstance(loading, ImposedForce):  # a mass may close the gap before it opens it
+        first = min(loading.rest_gap or _CLOSED * first, first)
+    return first * (math.cbrt(LEAST_LEFT) if loses else 1.0)
 
 
 def speed_needs(scene: SeparationScene) -> tuple[str, ...]:
     """Return the needs of an effect that depends on the speed of the line, or on its way."""
     loading = scene.loading
+    if isinstance(loading, ImposedForce):
+        return ()
     if isinstance(loading, ImposedSpeed) and loading.vibration is None:
         return ()
     return (
-        "loading = ImposedSpeed(...) without vibration: under a force or within a time the speed "
-        "is not known before the motion",
+        "loading = ImposedSpeed(...) without vibration, or ImposedForce(...): within a time no "
+        "speed is known, and a vibration turns the line twice a cycle",
     )
 
 

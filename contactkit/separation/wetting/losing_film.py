@@ -15,10 +15,11 @@ from ...numerics.roots import bracketed_root
 from ..effects.force_law import ForceLaw
 from ..film import Film
 
-__all__ = ["lagrange", "losing_film", "volume_nodes"]
+__all__ = ["films_of_volume", "lagrange", "losing_film", "volume_nodes"]
 
 _NODES = 5  # Chebyshev's points of the volume: 1e-5 of the force where a third is lost
 _KEPT = 4096  # gaps whose weights are kept: every law of the film asks for them
+_KEPT_FILMS = 64  # of some steps of a motion: three stages, in some iterations
 _NO_LOSS = 1e-12  # of the volume, which changes no force
 
 
@@ -91,6 +92,64 @@ def _law(laws: Sequence[ForceLaw], at: Callable[[float], list[tuple[float, float
         return sum(weight * law.force(place, speed) for law, (weight, place) in each)
 
     return ForceLaw(force, rate=laws[0].rate)
+
+
+def films_of_volume(whole: Film, films: Sequence[Film], least: float) -> Callable[[float], Film]:
+    """Film of any part of the volume of the scene.
+
+    Parameters
+    ----------
+    whole : Film
+        With the volume of the scene.
+    films : sequence of Film
+        With the volumes of `volume_nodes`, of the least part.
+    least : float
+        Least part of the volume [-]; of less, the film is that of it.
+    """
+    volumes = _Volumes(volume_nodes(least), tuple(films), lambda gap: 1.0)
+    lengths = volumes.lengths
+
+    @lru_cache(maxsize=_KEPT_FILMS)
+    def film_of(part: float) -> Film:
+        if part >= 1.0:
+            return whole
+        weights = lagrange(volumes.nodes, max(part, least))
+        length = sum(map(operator.mul, weights, lengths))
+        parts = [(w, one / length) for w, one in zip(weights, lengths, strict=True)]
+        laws = {
+            kind: _of_part([film.laws[kind] for film in films], parts) if kind.needs_film else law
+            for kind, law in whole.laws.items()
+        }
+
+        def end_at(gap: float, speed: float) -> float:
+            each = zip(films, parts, strict=True)
+            return sum(w * film.end_at(ratio * gap, speed) for film, (w, ratio) in each)
+
+        end, first = whole.end, parts[0][1]
+        return Film(
+            MappingProxyType(laws),
+            whole.limits,
+            volumes.end(max(part, least)) if math.isfinite(end) else end,
+            whole.full_gap,
+            moving_ends=(end_at,) if whole.moving_ends else (),
+            checks=tuple(_scaled(check, first) for check in whole.checks),
+        )
+
+    return film_of
+
+
+def _scaled(check: Callable[[float, float], None], ratio: float) -> Callable[[float, float], None]:
+    return lambda gap, speed: check(ratio * gap, speed)
+
+
+def _of_part(laws: Sequence[ForceLaw], parts: Sequence[tuple[float, float]]) -> ForceLaw:
+    """Law of a part of the volume: weight of each law, and the gap it is taken at over the gap."""
+    each = [(law.force, weight, ratio) for law, (weight, ratio) in zip(laws, parts, strict=True)]
+
+    def force(gap: float, speed: float) -> float:
+        return sum(weight * one(ratio * gap, speed) for one, weight, ratio in each)
+
+    return ForceLaw(force, rate=laws[0].rate, exponent=laws[0].exponent)
 
 
 def losing_film(

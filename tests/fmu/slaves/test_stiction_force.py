@@ -203,7 +203,7 @@ def test_a_way_through_all_numbers_has_an_end(begin, end):
             forces.append(gap)
             return 1.0
 
-        def newtonian_impulse(self, start, end):
+        def viscous_impulse(self, start, end):
             return 0.0
 
     travel(Counted(), begin, end, 1.0)
