@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import threading
+import traceback
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -95,11 +96,23 @@ def _reported(error: Exception) -> int:
     if isinstance(error, MemoryError):
         error_line("out of memory; take a coarser grid or fewer planes")
         return _NOT_OURS
+    if where := _place_in_plugin(error):
+        error_line(f"{where}: {type(error).__name__}: {error}; --traceback shows how it got there")
+        return _NOT_OURS
     error_line(
         f"a defect of contactkit, {type(error).__name__}: {error}; please report it with what "
         "the same command prints with --traceback"
     )
     return _BUG
+
+
+def _place_in_plugin(error: Exception) -> str:
+    """File and line of a plugin that raised an error; empty for others."""
+    loaded = sys.modules.get(f"{__package__}.app.plugin")
+    files = loaded.LOADED if loaded is not None else ()
+    frames = traceback.extract_tb(error.__traceback__)
+    place = next((one for one in reversed(frames) if one.filename in files), None)
+    return f"{place.filename}, line {place.lineno}" if place is not None else ""
 
 
 def _show_warning(message: Warning | str, *_: object, **__: object) -> None:

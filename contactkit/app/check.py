@@ -47,5 +47,6 @@ def _without(tables: dict[str, Any], problems: Sequence[FileProblem]) -> dict[st
         else:
             effects.add(int(match[2]))
     if effects:
+        rest.pop("study", None)  # whose paths may lead to one of these
         rest["effects"] = [one for i, one in enumerate(rest["effects"]) if i not in effects]
     return rest

@@ -10,7 +10,10 @@ from pathlib import Path
 from ..errors import DescriptionError
 from ..kinds import KINDS
 
-__all__ = ["load_plugin"]
+__all__ = ["LOADED", "load_plugin"]
+
+LOADED: list[str] = []
+"""Files of the plugins that were run, by whose names errors in them are known."""
 
 _OPTION = "--plugin"
 
@@ -46,6 +49,7 @@ def load_plugin(path: str | Path) -> tuple[str, ...]:
         cure = "letters, digits and underscores, not a digit first"
         raise DescriptionError(_OPTION, str(path), "be named as a module can be", hint=cure)
     _refuse_taken(name, file)
+    LOADED.append(str(file))
     sys.path.insert(0, str(file.parent))
     try:
         importlib.import_module(name)

@@ -76,7 +76,8 @@ class Interface(Described):
     lower, upper : Body or Surface
         The bodies; a surface stands for a rigid body of that surface.
     meniscus : Meniscus, optional
-        The liquid between them, for the effects that ask for it.
+        The liquid between them: of a separation and a sliding, and of a contact whose effects ask
+        for it.
 
     Examples
     --------

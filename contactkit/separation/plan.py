@@ -496,7 +496,7 @@ def _of_volume(
     return films_of_volume(film, films, loss.least)
 
 
-_RATES = {"none": "not depend on the speed", "proportional": "be proportional to the speed"}
+_RATES = {"none": "it depends on the speed", "proportional": "it is not proportional to the speed"}
 _PROBES = 9  # gaps at which a law is asked how it depends on the speed
 
 
@@ -516,7 +516,7 @@ def _law(prepared: PreparedScene[SeparationScene], effect: SeparationForce) -> F
     if law.rate != "any":
         if measured_rate(law, gaps[:1]) not in (law.rate, "none"):
             raise PlanError(
-                f'{name}: its ForceLaw says rate="{law.rate}", but it does not '
+                f'{name}: its ForceLaw says rate="{law.rate}", but '
                 f"{_RATES[law.rate]}; leave rate out"
             )
         return law

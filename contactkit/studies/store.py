@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import hashlib
+import inspect
 import json
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
+from types import CodeType
 from typing import TYPE_CHECKING, Any
 
+import attrs
 from attrs import field, frozen
 
 from ..accuracy import Accuracy
@@ -83,14 +86,48 @@ class StudyPoint:
 
 
 def scene_key(scene: Scene, accuracy: Accuracy) -> str:
-    """Key of a point: a hash of all that its results depend on."""
+    """Key of a point: a hash of all that its results depend on.
+
+    Of classes of your own it holds the content of the file that defines them.
+    """
     from .._version import __version__
 
     tables = unstructure(scene, {}, for_key=True)
     tables.pop("name", None)  # a title does not change results
     _name_by_content(tables)
     what = [_FORMAT, __version__, tables, accuracy.values]
+    if own := sorted(set(_own_code(scene))):
+        what.append(own)
     return hashlib.sha256(json.dumps(what, sort_keys=True).encode()).hexdigest()[:40]
+
+
+def _own_code(value: Any) -> Iterator[str]:
+    """Content of the source files of classes in a scene that are not of contactkit."""
+    if isinstance(value, tuple | list):
+        for item in value:
+            yield from _own_code(item)
+    elif attrs.has(type(value)):
+        kind = type(value)
+        if kind.__module__.partition(".")[0] != __package__.partition(".")[0]:
+            yield _content(_source_file(kind))
+        for one in attrs.fields(kind):
+            yield from _own_code(getattr(value, one.name))
+
+
+def _source_file(kind: type) -> str:
+    """File of a class; of one that was typed into a session what its functions compute."""
+    try:
+        return inspect.getfile(kind)
+    except (TypeError, OSError):
+        functions = [one for one in vars(kind).values() if inspect.isfunction(one)]
+        made = [_computed(one.__code__) for one in functions]
+        return f"{kind.__qualname__} {made}"
+
+
+def _computed(code: CodeType) -> list[Any]:
+    """Operations, names and constants of a function and of those inside it."""
+    inner = [_computed(one) if isinstance(one, CodeType) else repr(one) for one in code.co_consts]
+    return [code.co_code.hex(), code.co_names, inner]
 
 
 def _name_by_content(value: Any) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -120,3 +121,32 @@ def test_a_file_that_is_no_plugin_is_refused(files, tmp_path, capsys, name, text
     assert said in message
     assert "--plugin" in message
     assert "Traceback" not in message
+
+
+def test_an_error_in_a_plugin_is_not_called_a_defect_of_contactkit(files, capsys):
+    scene, plugin = files
+    path = Path(plugin)
+    path.write_text(
+        PLUGIN.replace("lambda gap, speed: self.force", "lambda gap, speed: slef.force")
+    )
+    assert main(["run", scene, "--plugin", plugin]) == 2
+    message = capsys.readouterr().err
+    line = next(i for i, text in enumerate(path.read_text().splitlines(), 1) if "slef" in text)
+    assert f"{path.name}, line {line}: NameError: name 'slef' is not defined" in message
+    assert "defect" not in message
+
+
+def test_a_store_knows_the_code_of_a_plugin(files, tmp_path, capsys):
+    """Points of a law that was changed since are not taken for those of the new one."""
+    scene, plugin = files
+    store = str(tmp_path / "store")
+
+    def forces():
+        with KINDS.including():
+            sys.modules.pop(Path(plugin).stem, None)
+            assert main(["study", scene, "--plugin", plugin, "--store", store, "--json"]) == 0
+        return json.loads(capsys.readouterr().out)["peak_force"]["value"]
+
+    assert forces() == pytest.approx([1e-3, 2e-3])
+    Path(plugin).write_text(PLUGIN.replace(": self.force", ": 2.0 * self.force"))
+    assert forces() == pytest.approx([2e-3, 4e-3])

@@ -76,9 +76,9 @@ def test_each_scene_of_a_live_page_is_one_and_is_shown(script, path):
 def test_a_scene_that_has_no_page_ends_the_build_with_the_reason(script, tmp_path, monkeypatch):
     live = script("site_live")
     monkeypatch.setattr(live, "KEPT", tmp_path / "kept")
-    scene = tmp_path / "contact.toml"
-    scene.write_text((ROOT / "contactkit/data/templates/contact.toml").read_text("utf-8"), "utf-8")
-    with pytest.raises(live.PluginError, match=r"no live page of contact.toml: .*\w{4}"):
+    scene = tmp_path / "sliding.toml"
+    scene.write_text((ROOT / "contactkit/data/templates/sliding.toml").read_text("utf-8"), "utf-8")
+    with pytest.raises(live.PluginError, match=r"no live page of sliding.toml: .*\w{4}"):
         live.built(scene)
     assert not any((tmp_path / "kept").glob("*.html"))
 
