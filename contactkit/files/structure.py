@@ -45,6 +45,7 @@ __all__ = [
     "load_material",
     "read_part",
     "renamed",
+    "resolved",
     "structure",
     "telling_lines",
     "unstructure",
@@ -208,7 +209,7 @@ def field_value(kind: type, name: str, value: Any) -> Any:
     >>> field_value(Layer, "material", "dlc").name
     'diamond-like carbon'
     """
-    _resolved(kind)
+    resolved(kind)
     attribute: attrs.Attribute[Any] = getattr(attrs.fields(kind), name)
     if value is None or attrs.has(type(value)):
         return value
@@ -227,7 +228,7 @@ def field_value(kind: type, name: str, value: Any) -> Any:
     return value
 
 
-def _resolved(kind: type) -> None:
+def resolved(kind: type) -> None:
     """Resolve the types of the fields of a class, also those imported for type checkers only."""
     attrs.resolve_types(kind, localns={"Map": Any, "Mask": Any})
 
@@ -251,7 +252,7 @@ def _attrs_class(kind: type, more: tuple[str, ...] = ()) -> Callable[[Any, Any],
 
     Keys of `more` may be suggested besides; who calls the hook has taken them out.
     """
-    _resolved(kind)
+    resolved(kind)
     hooks = {
         a.name: override(struct_hook=_quantity(kind, a))
         for a in attrs.fields(kind)
