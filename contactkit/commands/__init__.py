@@ -12,7 +12,7 @@ cost            ``contactkit cost``.
 report          ``contactkit report``.
 page            ``contactkit page``.
 gallery         ``contactkit gallery``.
-lists           ``contactkit list`` and ``contactkit new``, which help to write a scene file.
+lists           ``contactkit list``, ``new`` and ``schema``, which help to write a scene file.
 fmu             ``contactkit fmu build``, ``fmu system`` and ``fmu crosscheck``.
 completion      ``contactkit completion``.
 """

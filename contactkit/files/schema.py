@@ -6,7 +6,6 @@ import inspect
 import re
 import types
 from collections.abc import Callable, Mapping, Sequence
-from functools import reduce
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import attrs
@@ -57,6 +56,11 @@ _EXAMPLES = {
     "K": "20 degC",
     "rad": "60 deg",
 }
+_SCENES: tuple[tuple[type[Scene], Any], ...] = (
+    (ContactScene, CONTACT_EFFECTS),
+    (SlidingScene, SLIDING_SCENE_EFFECTS),
+    (SeparationScene, SEPARATION_EFFECTS),
+)
 _STUDY: Part = {
     "description": "Values of a study by dotted path, such as `loading.pressure`, in quotes; all "
     "combinations are run. Paths with commas vary together: a row of values for each.",
@@ -97,21 +101,16 @@ def scene_schema(devices: Mapping[str, type] | None = None) -> dict[str, Any]:
     (['material', 'thickness'], 'Its thickness [m]. A number in m, or a text such as "5 um".')
     """
     made = _Definitions()
-    scene = _either(
-        [
-            (_is_contact(), made.scene(ContactScene, CONTACT_EFFECTS)),
-            (_loading_among(Sliding), made.scene(SlidingScene, SLIDING_SCENE_EFFECTS)),
-        ],
-        made.scene(SeparationScene, SEPARATION_EFFECTS),
-    )
-    body = scene
+    contact, sliding, separation = (made.scene(kind, effects) for kind, effects in _SCENES)
+    cases = [(_is_contact(), contact), (_loading_among(Sliding), sliding)]
     if devices:
-        body = _either([(_has("device"), made.tagged("device", devices, "device"))], scene)
+        cases.insert(0, (_has("device"), made.tagged("device", devices, "device")))
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "Scene file of contactkit",
         "type": "object",
-        **body,
+        **_either(cases, separation),
+        "anyOf": [made.any_scene(), {}],
         "definitions": made.parts,
     }
 
@@ -121,6 +120,7 @@ class _Definitions:
 
     def __init__(self) -> None:
         self.parts: dict[str, Part] = {}
+        self._open: list[str] = []  # families of which a kind is being made
         self._special: Mapping[Any, Callable[[], Part]] = {
             Liquid: self._liquid,
             Material: self._material,
@@ -141,6 +141,20 @@ class _Definitions:
 
         return self._defined(kind.__name__, make)
 
+    def any_scene(self) -> Part:
+        """The keys of every kind of file, for completion alone, each once."""
+        found: dict[str, list[Part]] = {}
+        for name in [n for n in self.parts if n.startswith("device-") or n.endswith("Scene")]:
+            for key, part in self.parts[name]["properties"].items():
+                listed = found.setdefault(key, [])
+                listed += [part] if part not in listed else []
+        return {
+            "properties": {
+                key: parts[0] if len(parts) == 1 else {"anyOf": parts}
+                for key, parts in found.items()
+            }
+        }
+
     def tagged(
         self, tag: str, kinds: Mapping[str, type], family: str, optional: Sequence[str] = ()
     ) -> Part:
@@ -153,8 +167,9 @@ class _Definitions:
             for name, kind in kinds.items()
             if not _is_array(kind)
         }
-        head = {"type": "object", "required": [tag], "properties": {tag: {"enum": list(parts)}}}
-        return head | _either([(_names(tag, [name]), part) for name, part in parts.items()])
+        cases = [(_names(tag, [name]), part) for name, part in parts.items()]
+        known = {"properties": {tag: {"enum": list(parts)}}}
+        return {"type": "object", "required": [tag]} | _either(cases, refused=known)
 
     def _kind(self, tag: str, name: str, kind: type, needs_tag: bool) -> Part:
         made = self._fields(kind)
@@ -238,9 +253,20 @@ class _Definitions:
             if not registry.plain:
                 return made
             names = [name for name, kind in kinds.items() if not _required(kind)]
-            return _either([({"type": "string"}, {"enum": names})], made)
+            return _either([(_TEXT, {"enum": names})], made)
 
-        return self._defined(f"{base.__name__} {unit}".strip(), make)
+        def inner() -> Part:
+            return {key: part for key, part in make().items() if key != "anyOf"}
+
+        name = f"{base.__name__} {unit}".strip()
+        if name not in self._open:
+            self._open.append(name)
+            made = self._defined(name, make)
+            self._open.remove(name)
+            return made
+        # Taplo lists the keys of all tables below: of planforms in planforms in surfaces on
+        # surfaces that took it 54 s, and 0.1 s without what is listed for completion alone.
+        return self._defined(f"{name} inside", inner)
 
     def _quantity(self, members: Sequence[Any], unit: str) -> Part:
         """Schema of a number, a text with its unit, a list of them, a word, or a law."""
@@ -323,20 +349,19 @@ class _Definitions:
 _TEXT: Part = {"type": "string"}
 
 
-def _either(cases: Sequence[tuple[Part, Part]], otherwise: Part | None = None) -> Part:
-    """Schema of the first case whose condition holds.
+def _either(
+    cases: Sequence[tuple[Part, Part]], otherwise: Part | None = None, refused: Part | None = None
+) -> Part:
+    """Schema of the first case whose condition holds; else `otherwise`, or what refuses the value.
 
     Of conditions the message is about the key that is wrong, not about all cases; but Taplo does
     not complete from them, so that the cases are also listed beside one that always holds.
     """
-    parts = [part for _, part in cases] + ([otherwise] if otherwise else [])
-    start: Part = otherwise or {}
-    chain = reduce(
-        lambda rest, case: {"if": case[0], "then": case[1], **({"else": rest} if rest else {})},
-        reversed(cases),
-        start,
-    )
-    return {"anyOf": [*parts, {}], **chain} if cases else start
+    chain: Part = otherwise or refused or {}
+    for condition, part in reversed(cases):
+        chain = {"if": condition, "then": part} | ({"else": chain} if chain else {})
+    listed = [part for _, part in cases] + ([otherwise] if otherwise else [])
+    return {"anyOf": [*listed, {}], **chain}
 
 
 def _has(key: str) -> Part:
