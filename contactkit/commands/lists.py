@@ -68,9 +68,8 @@ def _write(text: str, out: Path | None, suffix: str, overwrite: bool) -> None:
     if out is None:
         click.echo(text, nl=False)
         return
-    from ..files.scenes import write_whole
-
     from ..app.output import check_file
+    from ..files.scenes import write_whole
 
     check_file(out, suffix, overwrite=overwrite)
     with write_whole(out) as temporary:
