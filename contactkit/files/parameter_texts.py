@@ -27,7 +27,7 @@ def parameter_texts(owner: Any) -> dict[str, str]:
     --------
     >>> from contactkit.scene.materials import Layer
     >>> parameter_texts(Layer)["thickness"]
-    'Its thickness [m].'
+    'How thick it is [m].'
     """
     found: dict[str, str] = {}
     for one in getattr(owner, "__mro__", (owner,)):

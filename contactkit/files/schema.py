@@ -98,7 +98,7 @@ def scene_schema(devices: Mapping[str, type] | None = None) -> dict[str, Any]:
     >>> made = scene_schema()
     >>> layer = made["definitions"]["Layer"]
     >>> layer["required"], layer["properties"]["thickness"]["description"]
-    (['material', 'thickness'], 'Its thickness [m]. A number in m, or a text such as "5 um".')
+    (['material', 'thickness'], 'How thick it is [m]. A number in m, or a text such as "5 um".')
     """
     made = _Definitions()
     contact, sliding, separation = (made.scene(kind, effects) for kind, effects in _SCENES)

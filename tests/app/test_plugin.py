@@ -89,7 +89,7 @@ def test_a_study_sends_it_to_other_processes(files, capsys):
 
 
 def test_the_schema_of_scene_files_has_it(files, tmp_path, capsys):
-    scene, plugin = files
+    plugin = files[1]
     out = tmp_path / "scene.schema.json"
     assert main(["schema", "--plugin", plugin, "--out", str(out)]) == 0
     assert out.name in capsys.readouterr().out
