@@ -6,6 +6,7 @@ import inspect
 import re
 import types
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import attrs
@@ -159,14 +160,12 @@ class _Definitions:
         self, tag: str, kinds: Mapping[str, type], family: str, optional: Sequence[str] = ()
     ) -> Part:
         """Schema of a table that names its kind; it has the keys of that kind."""
-        parts = {
-            name: self._defined(
-                f"{KINDS.of(kind).family if KINDS.of(kind) else family} {name}",  # type: ignore[union-attr]
-                lambda name=name, kind=kind: self._kind(tag, name, kind, name not in optional),
-            )
-            for name, kind in kinds.items()
-            if not _is_array(kind)
-        }
+        parts = {}
+        for name, kind in kinds.items():
+            if not _is_array(kind):
+                home = KINDS.of(kind)
+                make = partial(self._kind, tag, name, kind, name not in optional)
+                parts[name] = self._defined(f"{home.family if home else family} {name}", make)
         cases = [(_names(tag, [name]), part) for name, part in parts.items()]
         known = {"properties": {tag: {"enum": list(parts)}}}
         return {"type": "object", "required": [tag]} | _either(cases, refused=known)
