@@ -225,7 +225,7 @@ DEVICE = tomllib.loads(FILES["fuel-injector"])
 
 @pytest.mark.errors
 @pytest.mark.parametrize(
-    ("tables", "path", "value", "told"),
+    ("tables", "path", "value", "reason"),
     [
         (CONTACT, "windows", {"width": "1 um"}, "'windows' was unexpected"),
         (CONTACT, "interface.lower.surface.hurts", 0.8, "'hurts' was unexpected"),
@@ -252,7 +252,7 @@ DEVICE = tomllib.loads(FILES["fuel-injector"])
         (DEVICE, "loading.kind", "imposed-speed", "'imposed-speed' is not one of"),
     ],
 )
-def test_what_the_reader_refuses_is_refused_at_its_place(tables, path, value, told):
+def test_what_the_reader_refuses_is_refused_at_its_place(tables, path, value, reason):
     assert is_read(tables)
     made = at = copy.deepcopy(tables)
     *way, last = path.split(".")
@@ -261,7 +261,7 @@ def test_what_the_reader_refuses_is_refused_at_its_place(tables, path, value, to
     at[last] = value
     assert not is_read(made)
     (message,) = mistakes(made)
-    assert told in message
+    assert reason in message
 
 
 @pytest.mark.parametrize("name", ["sliding", "separation"])
