@@ -34,6 +34,7 @@ __all__ = [
     "parse_quantity",
     "parse_unit",
     "pm",
+    "quantity_pattern",
     "quantity_text",
     "readable_unit",
     "si",
@@ -320,3 +321,52 @@ def parse_quantity(value: object, unit: str, field: str = "value") -> float:
             field, value, f"be in a unit that converts to {unit}", hint=f"for example {example!r}"
         )
     return _scaled(match[1], found.factor / wanted.factor)
+
+
+_NUMBER = r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|inf)"
+_FACTOR = r" *(?:1|[^\d\s./*·⋅^-]+)(?:\^?-?\d+)? *"
+_PRODUCT = rf"{_FACTOR}(?:[./*·⋅]{_FACTOR})+"
+
+
+def quantity_pattern(unit: str) -> str:
+    r"""Regular expression of the texts that `parse_quantity` takes, for schemas of files.
+
+    Of ECMA 262, as JSON Schema asks for. The symbol of a unit that is a single one must be known
+    and of the dimension, such as ``"5 bar"`` for a pressure; a product (``"N/mm2"``) is left to
+    `parse_quantity`.
+
+    Parameters
+    ----------
+    unit : str
+        SI unit of the field.
+
+    Examples
+    --------
+    >>> texts = ["5 bar", "5 N/mm2", "5 mm", "5", "fast"]
+    >>> [re.search(quantity_pattern("Pa"), text) is not None for text in texts]
+    [True, True, False, False, False]
+    """
+    wanted = dict(parse_unit(unit).dimension)
+    known: dict[tuple[bool, str], list[str]] = {}
+    for symbol, (_, dimension, takes) in _SYMBOLS.items():
+        if power := _power(dimension, wanted):
+            exponent = "" if power == 1 else rf"\^?{power}"
+            known.setdefault((takes, exponent), []).append(re.escape(symbol))
+    prefix = f"[{''.join(_PREFIXES)}]?"
+    single = [
+        f"{prefix if takes else ''}(?:{'|'.join(symbols)}){exponent}"
+        for (takes, exponent), symbols in known.items()
+    ]
+    single += _CELSIUS if unit == "K" else ()
+    units = "|".join((*single, _PRODUCT))
+    return rf"^\s*{_NUMBER}\s*(?:{units}){'' if wanted else '?'}\s*$"
+
+
+def _power(dimension: Mapping[str, int], wanted: Mapping[str, int]) -> int:
+    """Power of a dimension that is another one; 0 if there is none, or the dimension is none."""
+    if not dimension or not wanted:
+        return 1 if not dimension and not wanted else 0
+    base = next(iter(dimension))
+    power, rest = divmod(wanted.get(base, 0), dimension[base])
+    same = {name: power * exponent for name, exponent in dimension.items()} == wanted
+    return power if same and not rest else 0

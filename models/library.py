@@ -11,7 +11,14 @@ from ..errors import DescriptionError, nearest
 if TYPE_CHECKING:
     from .device import Device
 
-__all__ = ["bundled_device", "bundled_scene", "bundled_scenes", "device_kind", "register_device"]
+__all__ = [
+    "bundled_device",
+    "bundled_scene",
+    "bundled_scenes",
+    "device_kind",
+    "device_kinds",
+    "register_device",
+]
 
 # Class of each device by the name that it has in files, ``device = "fuel-injector"``; imported when
 # it is named.
@@ -35,6 +42,11 @@ def device_kind(name: object) -> type[Device]:
         raise DescriptionError("device", name, "be a known device", hint=hint)
     found: type[Device] = named(_DEVICES[name])
     return found
+
+
+def device_kinds() -> dict[str, type[Device]]:
+    """Classes of all devices by their names in files."""
+    return {name: device_kind(name) for name in _DEVICES}
 
 
 def register_device(name: str, kind: str) -> None:

@@ -13,7 +13,7 @@ report          ``contactkit report``.
 page            ``contactkit page``.
 app             ``contactkit app``.
 gallery         ``contactkit gallery``.
-lists           ``contactkit list`` and ``contactkit new``, which help to write a scene file.
+lists           ``contactkit list``, ``new`` and ``schema``, which help to write a scene file.
 fmu             ``contactkit fmu build``, ``fmu system`` and ``fmu crosscheck``.
 completion      ``contactkit completion``.
 """

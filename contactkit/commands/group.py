@@ -10,7 +10,7 @@ from .cost import cost
 from .fit import fit
 from .fmu import fmu
 from .gallery import gallery
-from .lists import list_names, new
+from .lists import list_names, new, schema
 from .options import Group
 from .page import page
 from .plan import check, plan
@@ -43,6 +43,6 @@ def contactkit(context: click.Context, version: bool) -> int:
 
 for _command in (
     *(list_names, new, check, plan, run, study, fit, cost, report, page),
-    *(app, gallery, fmu, completion),
+    *(app, gallery, fmu, schema, completion),
 ):
     contactkit.add_command(_command)

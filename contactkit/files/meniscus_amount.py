@@ -12,7 +12,7 @@ from ..scene.interface import Interface
 from ..scene.meniscus import Meniscus
 from ..units import parse_quantity
 
-__all__ = ["AMOUNT_KEYS", "amount_of", "check_flat", "with_amount"]
+__all__ = ["AMOUNT_KEYS", "AMOUNT_UNITS", "amount_of", "check_flat", "with_amount"]
 
 
 class _Form(NamedTuple):
@@ -34,6 +34,8 @@ _CURES = {
 
 AMOUNT_KEYS = ("radius", "at_gap", "body", "profile", "coverage", "area")
 """Keys of a meniscus in a file, beside the fields of `Meniscus`."""
+AMOUNT_UNITS = {key: unit for form in _FORMS.values() for key, unit in form.needed.items()}
+"""Units of those that are quantities; the others are words."""
 
 
 def amount_of(table: Mapping[str, Any]) -> dict[str, Any]:

@@ -37,6 +37,7 @@ from contactkit.contact.effects.base import (
     Observer,
     PressureBound,
 )
+from contactkit.files.parameter_texts import parameter_texts
 from contactkit.fmu.framework.ports import Port, display_conversion
 from contactkit.fmu.framework.slave import PortSlave
 from contactkit.fmu.slaves.contact_stop import ContactStop
@@ -114,22 +115,6 @@ ROLES: Mapping[type, str] = {
 }
 
 
-def descriptions(kind: type) -> dict[str, str]:
-    """Descriptions of the parameters in the docstring of a class, or of its bases."""
-    found: dict[str, str] = {}
-    for one in kind.__mro__:
-        text = inspect.cleandoc(one.__dict__.get("__doc__") or "")
-        part = re.search(r"^Parameters\n-+\n(.*?)(?=^\w[\w ]*\n-+\n|\Z)", text, re.M | re.S)
-        for entry in re.split(r"\n(?=\S)", part[1]) if part else ():
-            head, _, body = entry.partition("\n")
-            meaning = re.sub(r":math:`([^`]+)`", r"$\1$", " ".join(body.split()))
-            meaning = meaning.replace("``", "`")
-            for name in head.partition(" : ")[0].split(", "):
-                if meaning and not text.startswith("See "):
-                    found.setdefault(name, meaning)
-    return found
-
-
 def default(field: attrs.Attribute[Any]) -> str:
     """Default value of a field, in words."""
     value = field.default
@@ -150,7 +135,7 @@ def default(field: attrs.Attribute[Any]) -> str:
 
 def keys(kind: type) -> str:
     """Keys of a table in a file; neighbouring fields that mean the same share a row."""
-    texts, rows = descriptions(kind), []
+    texts, rows = parameter_texts(kind), []
     for field in (one for one in attrs.fields(kind) if one.name[0] != "_"):
         text = re.sub(r" \[[^]]{1,10}\]", "", texts[field.name]).replace(" degC", " °C")
         name, rest = f"`{field.alias}`", (default(field), _with_unit(text, field))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 import pytest
@@ -132,3 +133,18 @@ def test_check_plans_nothing_where_a_body_is_wrong(tmp_path, capsys):
     said = capsys.readouterr().err
     assert "Sphere.radius" in said
     assert "without what is listed above" not in said
+
+
+def test_the_schema_is_printed_or_written_and_replaces_no_file(tmp_path, capsys):
+    assert main(["schema"]) == 0
+    printed = capsys.readouterr().out
+    assert json.loads(printed)["$schema"] == "http://json-schema.org/draft-07/schema#"
+    out = tmp_path / "scene.schema.json"
+    assert main(["schema", "--out", str(out)]) == 0
+    assert out.read_text("utf-8") == printed
+    out.write_text("mine")
+    assert main(["schema", "--out", str(out)]) == 2
+    assert out.read_text() == "mine"
+    assert main(["schema", "--out", str(out), "--overwrite"]) == 0
+    assert out.read_text("utf-8") == printed
+    assert main(["schema", "--out", str(tmp_path / "scene.toml")]) == 2

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import sys
+import tomllib
 from pathlib import Path
 
+import jsonschema
 import pytest
 
 from contactkit.cli import main
@@ -85,6 +87,19 @@ def test_a_study_sends_it_to_other_processes(files, capsys):
     assert main(["study", scene, "--plugin", plugin, "--workers", "2", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)["steady_pull_impulse"]["value"]
     assert found == pytest.approx([1e-3 * 0.19, 2e-3 * 0.19], rel=1e-6)
+
+
+def test_the_schema_of_scene_files_has_it(files, tmp_path, capsys):
+    plugin = files[1]
+    out = tmp_path / "scene.schema.json"
+    assert main(["schema", "--plugin", plugin, "--out", str(out)]) == 0
+    assert out.name in capsys.readouterr().out
+    schema = json.loads(out.read_text("utf-8"))
+    tables = tomllib.loads(SCENE)
+    jsonschema.validate(tables, schema)
+    tables["effects"][0]["forse"] = "1 N"
+    with pytest.raises(jsonschema.ValidationError, match="'forse' was unexpected"):
+        jsonschema.validate(tables, schema)
 
 
 def test_without_it_the_message_names_the_option(files, capsys):
