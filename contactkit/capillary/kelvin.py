@@ -23,12 +23,14 @@ import math
 from typing import Any
 
 from ..errors import InfeasibleError
+from ..validity import ValidityNumber
 
 __all__ = [
     "GAS_CONSTANT",
     "kelvin_radius",
     "laplace_pressure",
     "meniscus_height",
+    "radius_number",
     "relative_humidity",
     "thin_film_force",
 ]
@@ -115,6 +117,26 @@ def relative_humidity(pressure: Any, molar_volume: Any, temperature: Any) -> Any
     import numpy as np
 
     return np.exp(exponent)
+
+
+_FEW_MOLECULES = 1e-9  # [m]
+
+
+def radius_number(radius: float) -> ValidityNumber:
+    """Range of Kelvin's equation for a radius [m], as a number of validity.
+
+    Examples
+    --------
+    >>> radius_number(1.1e-9).is_valid, radius_number(0.6e-9).is_valid
+    (True, False)
+    """
+    return ValidityNumber(
+        name="Kelvin radius [m]",
+        value=radius,
+        low=_FEW_MOLECULES,
+        detail="below 1 nm, a few molecules, the tension of the bulk is some 20 % off",
+        source="Fisher and Israelachvili 1981: Kelvin's equation holds down to radii of 4 nm",
+    )
 
 
 def meniscus_height(pressure: Any, surface_tension: Any, wetting: Any) -> Any:

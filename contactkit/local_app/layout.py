@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from html import escape
-from typing import Any
+from typing import Any, Literal
 
 import marimo as mo
 
@@ -107,10 +107,10 @@ def _wrong(text: str) -> Any:
     return mo.Html(f'<p style="color:#b00020;max-width:24rem;margin:0">{escape(text)}</p>')
 
 
-def _message(text: str, kind: str) -> Any:
-    """A message in a frame: info, warn or danger."""
+def _message(text: str, kind: Literal["info", "success", "warn", "danger"]) -> Any:
+    """A message in a frame."""
     lines = "<br>".join(escape(text).splitlines())
-    return mo.callout(mo.Html(lines), kind=kind)  # type: ignore[arg-type]
+    return mo.callout(mo.Html(lines), kind=kind)
 
 
 # What is computed -----------------------------------------------------------------------------

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from attrs import evolve
 
 from ...accuracy import Accuracy
-from ...capillary.kelvin import kelvin_radius, laplace_pressure
+from ...capillary.kelvin import kelvin_radius, laplace_pressure, radius_number
 from ...errors import InfeasibleError
 from ...scene.scenes import SeparationScene
 from ...separation.effects.meniscus import MeniscusForce
@@ -45,9 +45,6 @@ __all__ = [
     "tip_law",
     "tip_scene",
 ]
-
-
-_FEW_MOLECULES = 1e-9  # [m]; a molecule of water is 0.3 nm across
 
 
 class Adhesion(NamedTuple):
@@ -84,15 +81,7 @@ def condensate_validity(found: Iterable[Adhesion]) -> tuple[ValidityNumber, ...]
     radii = [one.kelvin_radius for one in found if one.volume > 0.0]
     if not radii:
         return ()
-    return (
-        ValidityNumber(
-            name="Kelvin radius [m]",
-            value=min(radii),
-            low=_FEW_MOLECULES,
-            detail="below 1 nm, a few molecules, the tension of the bulk is some 20 % off",
-            source="Fisher and Israelachvili 1981: Kelvin's equation holds down to radii of 4 nm",
-        ),
-    )
+    return (radius_number(min(radii)),)
 
 
 def _kelvin(scene: SeparationScene, humidity: float) -> tuple[float, float]:

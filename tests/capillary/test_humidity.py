@@ -285,8 +285,8 @@ def _flats():
 REFUSED = [
     (lambda: humidity_curve(near_sphere(1e-6), [0.5, 1.0]), "floods the gap", ck.InfeasibleError),
     (lambda: humidity_curve(near_sphere(1e-6), [0.0]), "nothing condenses", ck.InfeasibleError),
-    (lambda: humidity_curve(near_sphere(1e-6), [math.nan]), "numbers between", ck.DescriptionError),
-    (lambda: humidity_curve(near_sphere(1e-6), []), "numbers between", ck.DescriptionError),
+    (lambda: humidity_curve(near_sphere(1e-6), [math.nan]), "finite numbers", ck.DescriptionError),
+    (lambda: humidity_curve(near_sphere(1e-6), []), "finite numbers", ck.DescriptionError),
     (
         lambda: humidity_curve(near_sphere(1e-6), [0.5], gap=-1.0),
         r"\(gap\) must be zero or",

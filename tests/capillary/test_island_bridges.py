@@ -218,3 +218,22 @@ def test_curvature_at_the_edge_is_that_of_the_inner_neighbour():
     summit = np.array([[0, 0], [4, 5], [2, 3]])
     found = kernel.summit_curvature(heights, summit, (1.0, 1.0), (False, False))
     assert found == pytest.approx(0.5 * (1.0 / 3.0 + 1.0 / 5.0), rel=1e-12)
+
+
+@pytest.mark.parametrize(("humidity", "is_valid"), [(0.7, True), (0.4, False)])
+def test_the_radius_of_condensed_menisci_is_judged(humidity, is_valid, recwarn):
+    """Below 1 nm the tension is not that of the bulk: water at 20 degC has 1.51 and 0.59 nm."""
+    water = ck.Meniscus(liquid=ck.load_liquid("water"), relative_humidity=humidity)
+    scene = ck.ContactScene(
+        interface=ck.Interface(
+            lower=ck.Body(solid=RIGID), upper=ck.Body(surface=bumps(FOUR)), meniscus=water
+        ),
+        window=ck.Window(periodic=True),
+        loading=ck.Pressing(force=1e-9),
+        effects=(ck.HalfSpace(), ck.IslandBridges()),
+    )
+    found = {one.name: one for one in ck.solve(ck.plan(scene)).validity}
+    radius = found["Kelvin radius [m]"]
+    hand = 0.07274 * 18.05e-6 / (8.31446 * 293.15 * -math.log(humidity))
+    assert radius.value == pytest.approx(hand, rel=2e-3)
+    assert radius.is_valid is is_valid

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from attrs import Attribute, field, frozen
 
+from ...capillary import kelvin
 from ...errors import DescriptionError
 from ...units import si
 from ...validators import Described, finite, optional, positive, refuse
@@ -16,6 +17,8 @@ from ...validators import Described, finite, optional, positive, refuse
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+    from ...liquids.liquid import Liquid
 
     Map = NDArray[np.float64]
 
@@ -250,6 +253,64 @@ class DugdaleAttraction(AttractionLaw):
                 hint="a film that pushes the bodies apart is a matter of FilmMeniscus",
             )
         return cls(work_of_adhesion=surface_tension * wetting, range=height, end_width=end_width)
+
+    @classmethod
+    def from_humidity(
+        cls,
+        *,
+        liquid: Liquid,
+        relative_humidity: float,
+        temperature: float,
+        contact_angle_lower: float,
+        contact_angle_upper: float,
+        end_width: float | None = None,
+    ) -> DugdaleAttraction:
+        r"""Attraction of the menisci that condense from humid air, as `from_meniscus`.
+
+        .. math:: r = -\frac{\gamma}{p} (\cos\theta_1 + \cos\theta_2), \qquad
+            p = \frac{R T}{v} \ln H
+
+        Parameters
+        ----------
+        liquid : Liquid
+            With surface tension, density and molar mass.
+        relative_humidity : float
+            Of the air, above 0 and below 1 [-].
+        temperature : float
+            Temperature [K].
+        contact_angle_lower, contact_angle_upper : float
+            Contact angles on the bodies [rad].
+        end_width : float, optional
+            As of the class [m].
+
+        Raises
+        ------
+        DescriptionError
+            If the liquid wets the bodies so little that it pushes them apart.
+        InfeasibleError
+            Without vapour, and at or above saturation.
+
+        Examples
+        --------
+        Water, 1.03 nm of Kelvin radius at 60 % and 20 degC:
+
+        >>> from contactkit.files.structure import load_liquid
+        >>> air = DugdaleAttraction.from_humidity(
+        ...     liquid=load_liquid("water"), relative_humidity=0.6, temperature=293.15,
+        ...     contact_angle_lower=0.0, contact_angle_upper=0.0)
+        >>> f"{air.work_of_adhesion:.4f} J/m2 over {air.range * 1e9:.2f} nm"
+        '0.1455 J/m2 over 2.11 nm'
+        """
+        state, molar = liquid.at(temperature), liquid.molar_volume(temperature)
+        pressure = float(kelvin.laplace_pressure(molar, temperature, relative_humidity))
+        wetting = math.cos(contact_angle_lower) + math.cos(contact_angle_upper)
+        return cls.from_meniscus(
+            surface_tension=state.surface_tension,
+            contact_angle_lower=contact_angle_lower,
+            contact_angle_upper=contact_angle_upper,
+            height=float(kelvin.meniscus_height(pressure, state.surface_tension, wetting)),
+            end_width=end_width,
+        )
 
 
 @frozen(kw_only=True)

@@ -11,7 +11,7 @@ from attrs import Attribute, field, frozen
 
 from ...capillary import island_bridges as kernel
 from ...capillary.film_islands import islands, meniscus_area
-from ...capillary.kelvin import meniscus_height
+from ...capillary.kelvin import meniscus_height, radius_number
 from ...units import si
 from ...validators import choice, optional, positive, refuse
 from ...validity import ValidityNumber
@@ -184,9 +184,16 @@ class IslandBridges(Observer[IslandPart]):
 
     def validity(self, contact: SolvedContact, part: IslandPart) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
+        meniscus = contact.scene.meniscus
+        condensed: tuple[ValidityNumber, ...] = ()
+        if meniscus.relative_humidity is not None:
+            liquid = meniscus.liquid.at(contact.scene.temperature)
+            pressure = meniscus.pressure_of(liquid) or -math.inf
+            condensed = (radius_number(-liquid.surface_tension / pressure),)
         if not contact.grid.periodic:
-            return ()
+            return condensed
         return (
+            *condensed,
             ValidityNumber(
                 name="largest island over the window",
                 value=part.largest_fraction,

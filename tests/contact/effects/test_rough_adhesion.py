@@ -333,3 +333,28 @@ def test_stickiness_falls_with_work_and_rises_with_slope():
     # A rim of (slope diameter/4 range)^(2/3), with a diameter of 4 slope/laplacian.
     assert base == pytest.approx(0.1 * 1e-9 / (2.0 * 5e-11) * (0.01 / (2e7 * 1e-9)) ** (2 / 3))
     assert pytest.approx(1.0292, abs=1e-4) == rough_limits.STICKY_BELOW
+
+
+def test_menisci_from_humid_air_pull_with_the_tension_of_the_liquid():
+    """Range and tension by hand: the Kelvin radius, both angles, and w = gamma (cos + cos)."""
+    water = ck.load_liquid("water")
+    made = ck.DugdaleAttraction.from_humidity(
+        liquid=water,
+        relative_humidity=0.6,
+        temperature=333.15,
+        contact_angle_lower=0.5,
+        contact_angle_upper=0.2,
+    )
+    state, wetting = water.at(333.15), np.cos(0.5) + np.cos(0.2)
+    kelvin = -state.surface_tension * (0.0180153 / state.density)
+    kelvin /= 8.31446 * 333.15 * np.log(0.6)
+    assert made.work_of_adhesion == pytest.approx(state.surface_tension * wetting, rel=1e-12)
+    assert made.range == pytest.approx(kelvin * wetting, rel=1e-4)
+    with pytest.raises(ck.DescriptionError, match="add up to less than pi"):
+        ck.DugdaleAttraction.from_humidity(
+            liquid=water,
+            relative_humidity=0.6,
+            temperature=293.15,
+            contact_angle_lower=2.0,
+            contact_angle_upper=2.0,
+        )
