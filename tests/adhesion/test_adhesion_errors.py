@@ -127,7 +127,7 @@ def test_what_was_not_simulated_is_not_there():
 
 @pytest.mark.parametrize("loads", [[math.nan], [math.inf], [[1.0]]])
 def test_loads_are_numbers(loads):
-    with pytest.raises(ck.DescriptionError, match=says("loads", "be finite numbers")):
+    with pytest.raises(ck.DescriptionError, match=says("loads", "be a sequence of finite numbers")):
         ck.adhesion_curve(scene(ck.AdhesiveContact(**HARD)), loads)
 
 

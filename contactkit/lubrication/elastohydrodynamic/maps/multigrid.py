@@ -30,6 +30,9 @@ Map = NDArray[np.float64]
 Single = NDArray[np.float32]
 
 _COARSEST = 12  # cells across, or fewer: solved at once
+# Largest conductance times largest resistance to the outlets, above which round-off (1e15) may be
+# all that lets liquid out.
+_SINGULAR = 1e13
 # Jacobi steps before and after the coarser grid, damped as Chebyshev's polynomial of degree 2 on
 # the eigenvalues from 1/2 to 2 asks. Rough sphere on 128 x 128 cells, beta = 1: 10.0 iterations of
 # GMRES, with one step each 11.9, with three 9.2, with exact factors 8.0.
@@ -169,10 +172,15 @@ def _inverse(along_x: Map, along_y: Map, leaving: Map) -> Single:
     sides = (cell[:, :-1], cell[:, 1:], along_x), (cell[:-1], cell[1:], along_y)
     for low, high, conductance in sides:
         whole[low, high] = whole[high, low] = -conductance
+    singular = ConvergenceError("the film has no unique pressure: its matrix is singular")
     try:
-        return np.linalg.inv(whole).astype(np.float32)
+        inverse: Map = np.linalg.inv(whole)
     except np.linalg.LinAlgError as error:
-        raise ConvergenceError("the film has no unique pressure: its matrix is singular") from error
+        raise singular from error
+    # Whether the last pivot is zero or round-off hangs on the machine; either is singular.
+    if not np.abs(inverse).max() * np.abs(whole).max() < _SINGULAR:
+        raise singular
+    return inverse.astype(np.float32)
 
 
 def _even(values: Any) -> Any:
