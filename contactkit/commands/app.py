@@ -37,4 +37,4 @@ def app(scene: str | None, port: int, no_browser: bool) -> None:
         except KeyboardInterrupt as ended:  # once every request is answered
             if type(ended) is not KeyboardInterrupt:
                 raise  # SIGTERM, which has an exit status of its own
-            say("closed")
+        say("closed")  # also where SIGINT was ignored at the start: nothing is raised then

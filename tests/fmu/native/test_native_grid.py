@@ -157,7 +157,7 @@ def places_of(tables):
     grid = tables.grid
     whole = contents_of("stiction-mass", PORTS[:1], start, tables).numbers()
     # Behind it there are neither faces nor a film of deforming bodies.
-    begin = len(whole) - 2 - len(grid.numbers())
+    begin = len(whole) - 3 - len(grid.numbers())  # faces, bodies and liquid: none
     assert whole[begin : begin + 1] == [grid.rtol]
     n, m, lines = len(grid.cells.area), len(grid.sides.one), len(grid.onset.place)
     cells = begin + 2 + 1 + 2 * lines
