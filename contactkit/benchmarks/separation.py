@@ -76,7 +76,7 @@ def _release(scene: SeparationScene, rtol: float) -> Outcome:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)
         result = simulate(plan(scene, Accuracy(time_rtol=rtol)))
-    if result.status != "released" or result.state is None:
+    if result.status != "released" or not result.has_motion:
         raise PlanError(f"cost needs a scene that is released; {result.message}")
     counts = {"steps": result.work.n_steps, "evaluations": result.work.n_evaluations}
     return Outcome(result.state.release_time, counts)

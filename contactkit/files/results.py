@@ -246,7 +246,7 @@ def _pack_separation(result: SeparationResult) -> dict[str, Any]:
         "status": result.status,
         "message": result.message,
         "impulses": dict(result.impulses),
-        "state": result.state._asdict() if result.state is not None else None,
+        "state": result.state._asdict() if result.has_motion else None,
         "work": result.work._asdict(),
         "extremes": dict(result.extremes),
         "validity": [number.value for number in result.validity],

@@ -54,7 +54,7 @@ def motion(result: SeparationResult, ax: Axes | None = None) -> Axes:
     ax.plot(x, y, color=COLORS["gap"])
     ax.set(xlabel=axis_label("time", seconds), ylabel=axis_label("gap", length), yscale="log")
     plain_log(ax.yaxis)
-    if result.state is not None and result.state.n_releases:
+    if result.has_motion and result.state.n_releases:
         release = result.state.release_time / readable("s", time)[0]
         ax.axvline(release, color="0.5", lw=0.8, ls="--")
     return ax
@@ -133,7 +133,7 @@ def _fit_time(ax: Axes, result: SeparationResult, unit: float, films: Sequence[A
         ax.set_xlim(0.01 * peak / unit, 1.5 * end / unit)
         prefixed_log(ax.xaxis, unit, "s")
         ax.set_xlabel("time")
-    if result.state is not None and result.state.n_releases:
+    if result.has_motion and result.state.n_releases:
         release = result.state.release_time / unit
         ax.axvline(release, color="0.5", lw=0.9, ls="--", label="release", zorder=0.5)
 

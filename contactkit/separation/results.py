@@ -54,8 +54,8 @@ class SeparationResult(CurveResult):
         The curves by their names, read-only; ``result["meniscus_force"]`` is one of them.
     impulses : mapping of str to float
         Time integral of each force over the whole opening [N.s].
-    state : MotionState or None
-        The end of the motion; None where no motion was solved.
+    has_motion : bool
+        Whether a motion was solved: a force was imposed.
     validity : tuple of ValidityNumber
         Whether the models were inside their ranges.
     work : Work
@@ -73,10 +73,32 @@ class SeparationResult(CurveResult):
     message: str
     columns: Mapping[str, Curve] = field(repr=False)
     impulses: Mapping[str, float] = field(repr=False)
-    state: MotionState | None = field(repr=False)
+    _state: MotionState | None = field(repr=False)
     validity: tuple[ValidityNumber, ...] = field(repr=False)
     work: Work
     extremes: Mapping[str, float] = field(repr=False)
+
+    @property
+    def has_motion(self) -> bool:
+        """Whether a motion was solved."""
+        return self._state is not None
+
+    @property
+    def state(self) -> MotionState:
+        """The end of the motion: release time, peak force, dissipated work.
+
+        Raises
+        ------
+        NotSimulatedError
+            If the scene imposes no force, so that no motion was solved.
+        """
+        if self._state is None:
+            loading = type(self.plan.scene.loading).__name__
+            raise NotSimulatedError(
+                f"no motion was solved under {loading}: result.scalars() has the numbers of its "
+                "curves; impose a force with ImposedForce(...) for a motion"
+            )
+        return self._state
 
     @property
     def gap(self) -> Curve:
@@ -151,8 +173,8 @@ class SeparationResult(CurveResult):
         found = {name: (value, "N.s") for name, value in self.impulses.items()}
         for effect in effects_of(self.plan.scene):
             found |= effect.scalars(self)
-        if self.state is not None:
-            found |= _numbers_of_motion(self.plan, self.state)
+        if self._state is not None:
+            found |= _numbers_of_motion(self.plan, self._state)
         return found | {name: (value, "N") for name, value in self.extremes.items()}
 
 

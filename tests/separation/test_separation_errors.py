@@ -809,3 +809,12 @@ def test_a_choice_of_eq_3_11_is_refused_on_a_sphere(film_scene):
 def test_a_field_of_another_choice_cannot_be_written(build):
     with pytest.raises(TypeError, match="unexpected keyword argument"):
         build()
+
+
+def test_a_motion_that_was_not_solved_is_refused_with_its_cure(film_scene):
+    made = film_scene(ck.ViscousForce(), film={"volume": 1e-12})
+    result = ck.simulate(ck.plan(made))
+    assert not result.has_motion
+    assert result.scalars()["peak_force"][0] > 0.0
+    with pytest.raises(ck.NotSimulatedError, match=r"no motion .* ImposedSpeed.*impose a force"):
+        _ = result.state
