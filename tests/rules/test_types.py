@@ -26,7 +26,7 @@ REVEALED = {
     "ck.simulate(ck.plan(slide))": "SlidingResult",
     "pressed.plan.scene": "ContactScene",
     "pulled.plan.scene": "SeparationScene",
-    "pulled.state": "MotionState | None",
+    "pulled.state": "MotionState",
     "pressed.contact_area": "float",
     "pressed.of(ck.HardnessLimit)": "PlasticPart",
     "pressed.of(ck.PlasticHistory)": "PlasticHistoryPart",
