@@ -14,6 +14,8 @@ from .style import Axes, ListedColormap, Patch, figure, legend
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Mask = NDArray[np.bool_]
+
 __all__ = ["extent", "hide_holes", "map_names", "place", "value_map"]
 
 _HOLES = "#b5b5ae"
@@ -29,15 +31,18 @@ def extent(result: ContactResult) -> tuple[tuple[float, float, float, float], st
 
 def hide_holes(ax: Axes, result: ContactResult) -> None:
     """Draw the pixels without a height in grey."""
-    if result.holes is None:
-        return
-    holes = np.ma.masked_where(~result.holes, np.zeros(result.holes.shape))
+    if result.holes is not None:
+        _paint(ax, result, result.holes, _HOLES)
+
+
+def _paint(ax: Axes, result: ContactResult, pixels: Mask, colour: str) -> None:
+    """Draw some pixels in one colour."""
     ax.imshow(
-        holes,
+        np.ma.masked_where(~pixels, np.zeros(pixels.shape)),
         origin="lower",
         extent=extent(result)[0],
         interpolation="nearest",
-        cmap=ListedColormap([_HOLES]),
+        cmap=ListedColormap([colour]),
     )
 
 
@@ -49,14 +54,7 @@ def place(ax: Axes, unit: str) -> None:
 
 def _mark_contact(ax: Axes, result: ContactResult) -> None:
     """Draw the pixels in contact in a colour of their own, named below the panel."""
-    touching = np.ma.masked_where(~result.contact, np.zeros(result.contact.shape))
-    ax.imshow(
-        touching,
-        origin="lower",
-        extent=extent(result)[0],
-        interpolation="nearest",
-        cmap=ListedColormap([_CONTACT]),
-    )
+    _paint(ax, result, result.contact, _CONTACT)
     names = [Patch(color=_CONTACT, label="contact")]
     legend(ax, handles=names, loc="upper center", bbox_to_anchor=(0.5, -0.14))
 

@@ -247,15 +247,7 @@ function makeControls() {
   by("held").textContent = data.held.join(" ");
 }
 
-let waiting = false;
-function later() {
-  if (waiting) return;
-  waiting = true;
-  requestAnimationFrame(() => {
-    waiting = false;
-    show();
-  });
-}
+const later = atNextFrame(() => show());
 
 function makeCharts() {
   const onPoint = (row) => {

@@ -42,6 +42,27 @@ function showEffects() {
   for (const id of ["on", "off"]) by(id).replaceChildren(...data[id].map((text) => made("li", text)));
 }
 
+// What calls `act` at the next frame of the screen, once however often it is asked before.
+function atNextFrame(act) {
+  let waiting = false;
+  return () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      act();
+    });
+  };
+}
+
+// A box to tick, with its label, before the other things to look at.
+function tickBox(id, text, changed) {
+  const box = made("label", ` ${text}`), tick = made("input", undefined, { type: "checkbox", id });
+  box.prepend(tick);
+  by("look").prepend(box);
+  tick.onchange = () => changed(tick.checked);
+}
+
 function failed(error) {
   by("status").textContent = error.message;
   by("status").className = "bad";

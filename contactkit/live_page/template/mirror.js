@@ -220,13 +220,10 @@ run({
   names: FLIGHT,
   async prepare() {
     await kernelReady();
-    const box = made("label", " dry: nothing condenses"), tick = made("input", undefined, { type: "checkbox", id: "dry" });
-    box.prepend(tick);
-    by("look").prepend(box);
-    tick.onchange = () => {
-      dry = tick.checked;
+    tickBox("dry", "dry: nothing condenses", (ticked) => {
+      dry = ticked;
       update();
-    };
+    });
   },
   makeCharts: mirrorCharts,
   compute: mirrorNow,

@@ -98,15 +98,7 @@ function refused(error) {
   for (const id of ["results", "validity", "verdict"]) by(id).replaceChildren();
 }
 
-let waiting = false;
-function later() {
-  if (waiting) return;
-  waiting = true;
-  requestAnimationFrame(() => {
-    waiting = false;
-    update();
-  });
-}
+const later = atNextFrame(() => update());
 
 function update() {
   try {

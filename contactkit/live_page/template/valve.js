@@ -227,13 +227,10 @@ run({
   async prepare() {
     await kernelReady();
     driveNumbers = new Float64Array(await unpacked(data.drive));
-    const box = made("label", " the whole cycle"), tick = made("input", undefined, { type: "checkbox", id: "whole" });
-    box.prepend(tick);
-    by("look").prepend(box);
-    tick.onchange = () => {
-      whole = tick.checked;
+    tickBox("whole", "the whole cycle", (ticked) => {
+      whole = ticked;
       drawValve();
-    };
+    });
   },
   makeCharts: valveCharts,
   compute: valveNow,
