@@ -18,10 +18,26 @@ from ..models.micromirror.tip_film import tip_scene
 from ..scene.loading import ImposedForce
 from ..scene.scenes import SeparationScene
 
-__all__ = ["PageScene", "fmu_files"]
+__all__ = ["PageScene", "check_fmu", "fmu_files"]
 
 PageScene = SeparationScene | InjectorScene | MicromirrorScene
 """What a live page can hold."""
+
+
+def check_fmu(scene: PageScene) -> None:
+    """Refuse a scene whose film no FMU holds.
+
+    Raises
+    ------
+    PlanError
+        If the scene imposes a speed.
+    """
+    is_device = isinstance(scene, InjectorScene | MicromirrorScene)
+    if not is_device and not isinstance(scene.loading, ImposedForce):
+        raise PlanError(
+            "the scene imposes a speed, and the FMU of a film moves a mass: leave out the FMU, or "
+            'write kind = "imposed-force" with a mass'
+        )
 
 
 def fmu_files(scene: PageScene, name: str) -> dict[str, bytes]:
@@ -31,8 +47,6 @@ def fmu_files(scene: PageScene, name: str) -> dict[str, bytes]:
 
     Raises
     ------
-    PlanError
-        If the scene imposes a speed, which no FMU holds.
     ContactkitError
         If a force has no native form, or a compiler is missing.
     """
@@ -55,9 +69,4 @@ def _built(scene: PageScene, name: str, folder: Path) -> Iterator[Path]:
         values |= {"N": tips.per_side, "c": tips.damping}
         yield build_native_tip(folder / f"{name}-tips.fmu", start=values)
         return
-    if not isinstance(scene.loading, ImposedForce):
-        raise PlanError(
-            "the scene imposes a speed, and the FMU of a film moves a mass: leave out the FMU, or "
-            'write kind = "imposed-force" with a mass'
-        )
     yield build_native(scene, folder / f"{name}.fmu")

@@ -20,7 +20,7 @@ from .assembly import assembled, file_name
 from .contact.loads import loads_of, solved
 from .contact.page import contact_page
 from .film_page import film_data
-from .fmu_files import PageScene, fmu_files
+from .fmu_files import PageScene, check_fmu, fmu_files
 from .mirror_page import mirror_data
 from .module import kernel_module
 from .scene import check_scene
@@ -132,8 +132,10 @@ def live_page(
         )
     if isinstance(what, ContactResult | list | tuple):
         return contact_page([what] if isinstance(what, ContactResult) else what, update)
-    # A scene that no page carries needs no compiler.
+    # A scene that no page carries, or no FMU, needs no compiler.
     scene = what if isinstance(what, InjectorScene | MicromirrorScene) else check_scene(what)
+    if fmu:
+        check_fmu(scene)
     require("ziglang", "a live page, whose kernel is compiled to WebAssembly,")
     files = fmu_files(scene, file_name(scene.name, "film")) if fmu else {}
     data = page_data(scene, accuracy, progress)
