@@ -6,6 +6,8 @@
 Each solver runs in a process of its own, and each answer is graded by one independent operator:
 largest violation of a contact condition over the rms roughness. A solver's tolerance is lowered
 until that is 1e-8, or it can no more. What is missing, refused or out of budget is reported.
+A program that is not among them takes part by ``--program FILE``, whose ``prepare(case, threads)``
+gives ``solve(tolerance)`` as those in solvers.py do.
 Tables go to out/bench/contact.md, numbers to out/bench/contact.json.
 """
 
@@ -43,6 +45,8 @@ def asked_for():
     ask.add_argument(
         "--skip", nargs="+", default=[], metavar="NAME@SIZE", help="a peer to leave out at one size"
     )
+    ask.add_argument("--program", type=Path, metavar="FILE", help="one more solver, in Python")
+    ask.add_argument("--python", default=sys.executable, help="interpreter that runs it")
     ask.add_argument("--peers", type=Path, default=Path(".venv/peers"))
     ask.add_argument("--out", type=Path, default=Path("out/bench"))
     return ask.parse_args()
@@ -62,6 +66,8 @@ def solvers(given):
             found[name] = python
         else:
             missing[name] = reason
+    if given.program:
+        found[given.program.stem] = given.python
     if given.only:
         found = {name: python for name, python in found.items() if name in given.only}
     return found, missing
@@ -97,6 +103,8 @@ def contest(given, found):
                 row["failed"] = f"out of budget: {seconds:.0f} s at {size}"
             else:
                 job = row | {"budget": given.budget, "repeats": given.repeats}
+                if given.program and name == given.program.stem:
+                    job["program"] = str(given.program)
                 # A step looser than the smaller map took: no long solves in vain.
                 row |= run(python, job | {"tolerance": min(START, tolerance / STEP)})
                 if "failed" in row:

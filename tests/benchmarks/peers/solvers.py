@@ -6,6 +6,7 @@ applied the operator on the full grid. A solver's modules are imported by its ow
 
 from __future__ import annotations
 
+import importlib.util
 import io
 import os
 import sys
@@ -176,6 +177,11 @@ def slippy(given, threads):
     return solve
 
 
-def named(name):
-    """The function above of that name."""
-    return getattr(sys.modules[__name__], name)
+def named(name, program=None):
+    """The function above of that name, or `prepare` in the file of a program."""
+    if program is None:
+        return getattr(sys.modules[__name__], name)
+    spec = importlib.util.spec_from_file_location(name, program)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.prepare
