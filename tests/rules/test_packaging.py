@@ -1,6 +1,7 @@
 """What is shipped: the wheel holds every package and data file, the sdist the repository."""
 
 import importlib.util
+import json
 import re
 import subprocess
 import sys
@@ -45,11 +46,32 @@ def test_every_folder_of_python_files_is_a_package():
 def test_there_is_one_version():
     version = PROJECT["project"]["version"]
     assert contactkit.__version__ == version
+    for name in (".zenodo.json", "codemeta.json"):
+        assert json.loads((ROOT / name).read_text("utf-8"))["version"] == version
     for name, pattern in (
         ("CITATION.cff", r"^version: (.*)$"),
         ("conda-recipe/recipe.yaml", r'^  version: "(.*)"$'),
     ):
         assert re.search(pattern, (ROOT / name).read_text("utf-8"), re.M)[1] == version
+
+
+def test_archives_are_told_what_the_index_is_told():
+    project, citation = PROJECT["project"], (ROOT / "CITATION.cff").read_text("utf-8")
+    archive = json.loads((ROOT / ".zenodo.json").read_text("utf-8"))
+    code = json.loads((ROOT / "codemeta.json").read_text("utf-8"))
+    cited = citation.partition("keywords:\n")[2].replace("  - ", "").split("\n")
+    assert project["keywords"] == archive["keywords"] == code["keywords"] == cited[:-1]
+    authors = [one["name"] for one in project["authors"]]
+    assert authors == [one["name"] for one in archive["creators"]]
+    assert authors == [one["name"] for one in code["author"]]
+    assert authors == re.findall(r'- name: "(.*)"', citation)
+    assert archive["license"] == project["license"] == code["license"].rpartition("/")[2]
+    assert re.search(r"^license: (.*)$", citation, re.M)[1] == project["license"]
+    assert archive["description"] == code["description"]
+    abstract = citation.partition("abstract: >-\n")[2].partition("\ntype:")[0]
+    assert " ".join(abstract.split()) == archive["description"]
+    assert code["runtimePlatform"] == f"Python {project['requires-python']}"
+    assert code["codeRepository"] == project["urls"]["Homepage"]
 
 
 def test_conda_needs_what_pip_needs():
