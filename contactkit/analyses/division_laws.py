@@ -31,7 +31,7 @@ Name = Literal["exact", "arc", "as-published"]
 SOURCES = {
     "exact": "exact bridge, Orr, Scriven and Rivas 1975, to its stability limit; film, Stefan 1874",
     "arc": "arc of Eqs. (3.38)-(3.41) of Cai 2008 to the exact stability limit; film, Stefan 1874",
-    "as-published": "Eqs. (3.33) and (3.34) of Cai 2008 as printed, to where the neck of the arc closes",
+    "as-published": "Eqs. (3.33) and (3.34) of Cai 2008 as printed, to the gap of zero neck",
 }
 
 

@@ -92,23 +92,24 @@ https://doi.org/10.1137/S1052623401383558
         lines = (f"  {name} = {{{value}}},\n" for name, value in self.fields.items())
         return f"@{self.kind}{{{self.key},\n{''.join(lines)}}}\n"
 
-    def is_named_in(self, text: str) -> bool:
-        """Whether a text names the work by its label, or a report by its number.
+    def place_in(self, text: str) -> int | None:
+        """Where a text names the work by its label, or a report by its number; None: nowhere.
 
         Examples
         --------
         >>> kell = bibliography()["kell1975"]
-        >>> kell.is_named_in("Kell, J. Chem. Eng. Data 20 (1975) 97"), kell.is_named_in("Kell")
-        (True, False)
+        >>> kell.place_in("Kell, J. Chem. Eng. Data 20 (1975) 97"), kell.place_in("Kell")
+        (0, None)
         """
-        return bool(self.year) and self._pattern.search(_ascii(text)) is not None
+        found = self._pattern.search(_ascii(text)) if self.year else None
+        return None if found is None else found.start()
 
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
         letter = _LETTER.search(self.key)
         year = rf"\(?{self.year}{letter['letter'] if letter else ''}(?!\w)"
         before = r"(?<![\w-])(?<!and )"
-        named = rf"{re.escape(self.names)}(?:,[^;:]{{1,{_BETWEEN}}}?)? {year}"
+        named = rf"{re.escape(self.names)}(?:,(?:(?! and )[^;:]){{1,{_BETWEEN}}}?)? {year}"
         number = self.fields.get("number")
         numbered = f"|{re.escape(f'{self.names} {number}')}" if number else ""
         return re.compile(f"{before}(?:{named}{numbered})")
@@ -125,11 +126,12 @@ https://doi.org/10.1137/S1052623401383558
         if "pages" in self.fields:
             where = f"{where}, {get('pages')}"
         if "version" in self.fields:
-            where = f"Version {get('version')}"
+            where = f"version {get('version')}"
         edition = f", {get('edition')} edition" if "edition" in self.fields else ""
         link = f"https://doi.org/{self.doi}" if self.doi else get("url") or ""
         head = f"{authors} ({self.year})" if self.year else authors
-        return f"{head.rstrip('.')}. {get('title')}{edition}. {where}. {link}".rstrip(". ")
+        parts = (head.rstrip("."), f"{get('title')}{edition}", where, link)
+        return ". ".join(part for part in parts if part)
 
 
 @lru_cache(maxsize=1)
@@ -165,14 +167,16 @@ def contactkit_itself() -> Reference:
 
 
 def references_in(text: str) -> tuple[Reference, ...]:
-    """Return the works that a text names, in the order of the bibliography.
+    """Return the works that a text names, in its order.
 
     Examples
     --------
     >>> [one.key for one in references_in("Stefan 1874, flats: Eq. (3.18) of Cai 2008")]
-    ['cai2008', 'stefan1874']
+    ['stefan1874', 'cai2008']
     """
-    return tuple(one for one in bibliography().values() if one.is_named_in(text))
+    places = ((one.place_in(text), one) for one in bibliography().values())
+    found = [(place, one) for place, one in places if place is not None]
+    return tuple(one for _, one in sorted(found, key=lambda pair: pair[0]))
 
 
 def _authors(reference: Reference) -> list[str]:

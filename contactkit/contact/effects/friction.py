@@ -97,7 +97,7 @@ class FrictionTraction(SurfaceTraction[FrictionPart]):
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
-        return ("traction mu p on the pressure without friction: Goodman 1962; Eq. (2.24) of Cai 2008",)
+        return ("traction mu p on the frictionless pressure: Goodman 1962; Eq. (2.24) of Cai 2008",)
 
     @property
     def direction_cosines(self) -> TractionRatio:
