@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from .analyses.pull_off import pull_off_curve
     from .analyses.stick_slip import SpringSlider, stick_slip
     from .as_published.lookup import PUBLISHED, published
+    from .citing.cite import cite
     from .contact.discretisation import discretisation_error
     from .contact.effects.adhesion import Adhesion
     from .contact.effects.attraction_laws import (
@@ -305,6 +306,7 @@ _HOMES = {
     "advance": "separation.motion.advance",
     "bridge_force": "shortcuts.menisci",
     "capillary_force": "shortcuts.menisci",
+    "cite": "citing.cite",
     "compare_fits": "fitting.compare",
     "contact_area": "shortcuts.contact_area",
     "critical_meniscus": "analyses.division",
@@ -470,6 +472,7 @@ __all__ = [
     "advance",
     "bridge_force",
     "capillary_force",
+    "cite",
     "compare_fits",
     "contact_area",
     "critical_meniscus",

@@ -28,9 +28,9 @@ __all__ = ["AreaOverLoad", "area_over_load"]
 
 
 _SOURCES = {
-    "Persson": "Persson, J. Chem. Phys. 115 (2001) 3840",
-    "Bush, Gibson and Thomas": "Bush, Gibson and Thomas, Wear 35 (1975) 87",
-    "Greenwood and Williamson": "Greenwood and Williamson, Proc. R. Soc. A 295 (1966) 300",
+    "Persson": "Persson 2001",
+    "Bush, Gibson and Thomas": "Bush, Gibson and Thomas 1975",
+    "Greenwood and Williamson": "Greenwood and Williamson 1966",
 }
 
 

@@ -29,9 +29,9 @@ __all__ = ["DivisionLaw", "law_of"]
 Name = Literal["exact", "arc", "as-published"]
 
 SOURCES = {
-    "exact": "exact bridge (Young-Laplace), rupture at its stability limit; Stefan's film",
-    "arc": "arc of Eqs. (3.38)-(3.41), rupture at the exact stability limit; Stefan's film",
-    "as-published": "Eqs. (3.33) and (3.34) as printed, rupture where the neck of the arc closes",
+    "exact": "exact bridge, Orr, Scriven and Rivas 1975, to its stability limit; film, Stefan 1874",
+    "arc": "arc of Eqs. (3.38)-(3.41) of Cai 2008 to the exact stability limit; film, Stefan 1874",
+    "as-published": "Eqs. (3.33) and (3.34) of Cai 2008 as printed, to the gap of zero neck",
 }
 
 

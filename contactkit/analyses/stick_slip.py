@@ -178,7 +178,7 @@ class StickSlip(Curve):
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Curve.sources`."""
-        return ("Rabinowicz, Friction and Wear of Materials, 1965",)
+        return ("Rabinowicz 1965",)
 
     @property
     def parts(self) -> Mapping[str, Any]:
@@ -263,7 +263,7 @@ def stick_slip(slider: SpringSlider, n_slips: int = 5) -> StickSlip:
     without inertia the block slides steadily; with inertia and no drag it swings about kinetic
     friction for ever, and rests for an instant in every swing. A contact stiffness adds to the
     compliance of the spring; the inertia of the block against that of the contact alone is left
-    out. (Rabinowicz, Friction and Wear of Materials, 1965.)
+    out. (Rabinowicz 1965.)
 
     Examples
     --------

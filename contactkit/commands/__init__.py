@@ -9,6 +9,7 @@ study           ``contactkit study``.
 fit             ``contactkit fit``.
 plan            ``contactkit plan`` and ``contactkit check``, which run nothing.
 cost            ``contactkit cost``.
+cite            ``contactkit cite``.
 report          ``contactkit report``.
 page            ``contactkit page``.
 app             ``contactkit app``.

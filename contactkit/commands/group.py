@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from .app import app
+from .cite import cite
 from .completion import completion
 from .cost import cost
 from .fit import fit
@@ -42,7 +43,7 @@ def contactkit(context: click.Context, version: bool) -> int:
 
 
 for _command in (
-    *(list_names, new, check, plan, run, study, fit, cost, report, page),
+    *(list_names, new, check, plan, cite, run, study, fit, cost, report, page),
     *(app, gallery, fmu, schema, completion),
 ):
     contactkit.add_command(_command)

@@ -77,6 +77,15 @@ def _liquid(plan: ContactPlan) -> LiquidState | None:
     return scene.meniscus.liquid.at(scene.temperature)
 
 
+_METHODS = {
+    "active-set": "active set on nested grids; Hintermueller, Ito and Kunisch 2002, Bornemann and "
+    "Deuflhard 1996",
+    "conjugate-gradient": "projected conjugate gradients, own formulation",
+    "quasi-newton": "L-BFGS-B under an augmented Lagrangian; Byrd et al. 1995, Nocedal and Wright "
+    "2006",
+}
+
+
 @frozen(eq=False)
 class ContactPlan(Drawn, ScenePlan):
     """A checked contact scene on its grid, with everything prepared that the load does not change.
@@ -122,6 +131,11 @@ class ContactPlan(Drawn, ScenePlan):
             f"{self.scene.name or 'contact'}: {self.scene.loading.summary}, window {nx * dx:g} m x "
             f"{ny * dy:g} m, {edges}, {nx} x {ny} pixels"
         )
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """See `ScenePlan.methods`."""
+        return (_METHODS[self.accuracy.method],)
 
     @property
     def prepared(self) -> PreparedInterface:

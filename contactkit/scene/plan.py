@@ -57,6 +57,11 @@ class ScenePlan(abc.ABC):
         """Events of the run that the plan foresees, in sentences; ``print(plan)`` shows them."""
         return ()
 
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """Sources of the numerical methods of this run."""
+        return ()
+
     def has(self, kind: type[Effect]) -> bool:
         """Whether the scene lists an effect."""
         return any(type(effect) is kind for effect in self.scene.effects)
@@ -78,9 +83,13 @@ class ScenePlan(abc.ABC):
         )
 
     def cite(self) -> str:
-        """Sources of the equations of this run, one to a line."""
+        """Sources of the equations and methods of this run, one to a line.
+
+        `contactkit.cite` gives the works that they name.
+        """
         effects, scene = self.scene.effects, self.scene
-        return "\n".join(f"{e.name}: {source}" for e in effects for source in e.cites(scene))
+        lines = [f"{e.name}: {source}" for e in effects for source in e.cites(scene)]
+        return "\n".join([*lines, *(f"solver: {source}" for source in self.methods)])
 
     def __str__(self) -> str:
         effects = self.scene.effects

@@ -68,6 +68,7 @@ class GaussianRoughness(Surface):
     """
 
     kind: ClassVar[str] = "gaussian-roughness"
+    source: ClassVar[str] = "exponential autocorrelation, Eq. (2.42) of Cai 2008"
 
     rms: float = field(validator=positive, metadata=si("m"))
     correlation_length: float | tuple[float, float] = field(
@@ -107,6 +108,7 @@ class SelfAffineRoughness(Surface):
     """
 
     kind: ClassVar[str] = "self-affine-roughness"
+    source: ClassVar[str] = "spectrum with a roll-off, Persson et al. 2005"
 
     rms: float = field(validator=positive, metadata=si("m"))
     hurst: float = field(metadata=si("-"))

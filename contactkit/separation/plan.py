@@ -94,6 +94,13 @@ class Plan(ScenePlan):
         return self.prepared.accuracy
 
     @property
+    def methods(self) -> tuple[str, ...]:
+        """See `ScenePlan.methods`: of a motion; others integrate closed forms or splines."""
+        if not isinstance(self.scene.loading, ImposedForce):
+            return ()
+        return ("Radau IIA with error control; Hairer and Wanner 1996",)
+
+    @property
     def moving_effects(self) -> tuple[str, ...]:
         """Effects by which volume or end of the film depend on the motion, by their names."""
         return tuple(

@@ -36,7 +36,7 @@ FLOORS = [
     ["scene"],
     ["contact", "separation"],
     ["planning"],
-    ["files"],
+    ["files", "citing"],
     ["analyses", "shortcuts"],
     ["studies"],
     ["fitting"],

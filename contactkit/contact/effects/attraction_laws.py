@@ -131,7 +131,7 @@ class ExponentialAttraction(AttractionLaw):
     """
 
     kind: ClassVar[str] = "exponential"
-    source: ClassVar[str] = "tension w/r exp(-g/r)"
+    source: ClassVar[str] = "tension w/r exp(-g/r), own choice"
 
     def on_grid(self, self_influence: float) -> TensionLaw:
         """See `AttractionLaw.on_grid`."""

@@ -45,7 +45,7 @@ class HalfSpace(Compliance):
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
-        return ("Boussinesq's half-space, Eq. (2.34) without layers", _FREE, _SUM)
+        return ("Boussinesq's half-space, Eq. (2.34) of Cai 2008 without layers", _FREE, _SUM)
 
     def cites(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.cites`."""
@@ -79,7 +79,8 @@ class LayeredHalfSpace(Compliance):
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
         return (
-            "bonded layers, Eqs. (2.15) to (2.34), as a projective recursion from the substrate up",
+            "bonded layers, Eqs. (2.15) to (2.34) of Cai 2008, as a projective recursion from the "
+            "substrate up",
             _FREE,
             _SUM,
             _BASE,

@@ -126,7 +126,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
-        return ("meniscus force of a thin film, Eq. (2.43) (Tian and Bhushan 1996)",)
+        return ("meniscus force of a thin film, Eq. (2.43) of Cai 2008; Tian and Bhushan 1996",)
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""

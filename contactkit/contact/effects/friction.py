@@ -97,7 +97,7 @@ class FrictionTraction(SurfaceTraction[FrictionPart]):
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
-        return ("traction mu p on the pressure without friction: Goodman 1962, Eq. (2.24)",)
+        return ("traction mu p on the frictionless pressure: Goodman 1962; Eq. (2.24) of Cai 2008",)
 
     @property
     def direction_cosines(self) -> TractionRatio:
@@ -155,7 +155,7 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
-        return ("coupling compliance F12 of the layered half-space, Eq. (2.34)",)
+        return ("coupling compliance F12 of the layered half-space, Eq. (2.34) of Cai 2008",)
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""

@@ -257,7 +257,7 @@ class ContinuousHardness(LayeredRule):
     """
 
     kind: ClassVar[str] = "continuous"
-    source: ClassVar[str] = "Eq. (2.41) summed over all interfaces"
+    source: ClassVar[str] = "Eq. (2.41) of Cai 2008 summed over all interfaces"
 
     shift: float = field(default=0.3, validator=non_negative, metadata=si("-"))
 
@@ -284,7 +284,7 @@ class LiteralHardness(LayeredRule):
     has_jumps: ClassVar[bool] = True
     kind: ClassVar[str] = "literal"
     source: ClassVar[str] = (
-        "Eq. (2.41) and the three criteria after it (Bhushan and Venkatesan 2005)"
+        "Eq. (2.41) of Cai 2008 and its three criteria; Bhushan and Venkatesan 2005"
     )
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:

@@ -157,7 +157,7 @@ class IslandBridges(Observer[IslandPart]):
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
         return (
-            "islands of a film on a rough contact, section 2.2 (Tian and Bhushan 1996)",
+            "islands of a film on a rough contact, section 2.2 of Cai 2008; Tian and Bhushan 1996",
             "exact bridge on a sphere (Young-Laplace) on each, Orr, Scriven and Rivas 1975",
         )
 

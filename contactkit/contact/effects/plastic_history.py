@@ -172,7 +172,7 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
     )
     steps: int = field(default=8, converter=as_whole, validator=count, metadata=si("-"))
 
-    sources = ("elastic-perfectly plastic contact with residual heights",)
+    sources = ("elastic-perfectly plastic contact with residual heights, own formulation",)
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""

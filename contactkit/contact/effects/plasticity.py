@@ -105,7 +105,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
-        return ("pressure bounded by the hardness, section 2.1.3.2", self.rule.source)
+        return ("pressure bounded by the hardness, section 2.1.3.2 of Cai 2008", self.rule.source)
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""

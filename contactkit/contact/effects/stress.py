@@ -189,8 +189,8 @@ class SubsurfaceStress(Observer[StressPart]):
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
         return (
-            "stress of the layered half-space, Eq. (2.20), by a sweep down the layers",
-            "von Mises, principal and shear stress: Appendix A, in three dimensions",
+            "stress of the layered half-space, Eq. (2.20) of Cai 2008, by a sweep down the layers",
+            "von Mises, principal and shear stress: Appendix A of Cai 2008, in 3-D",
         )
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ a full film at P = 0 would lack. An active set (semismooth Newton on min(P, s)) 
 are full; it moves the edge of a cavity by about a cell an iteration, so a guess from a coarser
 grid matters. Newton on the Fischer-Burmeister function is the fallback.
 
-References: Giacopini et al. 2010; Hintermueller, Ito and Kunisch 2003; Woloszynski, Podsiadlo and
+References: Giacopini et al. 2010; Hintermueller, Ito and Kunisch 2002; Woloszynski, Podsiadlo and
 Stachowiak 2015.
 """
 

@@ -134,6 +134,13 @@ class DeformingPlan(ScenePlan):
         return min(_CHANGE * math.sqrt(self.accuracy.film_rtol / _ERROR), _MOST_CHANGE)
 
     @property
+    def methods(self) -> tuple[str, ...]:
+        """See `ScenePlan.methods`."""
+        if isinstance(self.film, SmoothGap):
+            return ("Radau IIA with error control; Hairer and Wanner 1996, section IV.8",)
+        return ("SDIRK of order 2 with error control; Hairer and Wanner 1996, section IV.6",)
+
+    @property
     def title(self) -> str:
         """See `ScenePlan.title`."""
         return f"{self.scene.name or 'separation'}: {self.scene.loading.summary}"

@@ -96,12 +96,12 @@ class AsperityMenisci(SeparationForce):
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
         population = {
-            "identical": "identical asperities, Eqs. (3.13) and (3.14)",
+            "identical": "identical asperities, Eqs. (3.13) and (3.14) of Cai 2008",
             "greenwood-williamson": "summits of normal heights, Greenwood and Williamson 1966",
         }
         bridge = {
-            "exact": "exact bridge of fixed pressure (Young-Laplace) on each",
-            "thin-film": "thin meniscus on each, Eq. (3.7)",
+            "exact": "exact bridge of fixed pressure on each, Orr, Scriven and Rivas 1975",
+            "thin-film": "thin meniscus on each, Eq. (3.7) of Cai 2008",
         }
         return (f"{population[self.law]}; {bridge[self.profile]}",)
 

@@ -134,8 +134,8 @@ class MeniscusForce(SeparationForce):
         """See `Effect.sources`."""
         if self.form == "exact":
             return (
-                "Young-Laplace equation, Eq. (3.1), by Delaunay's surfaces; Orr, Scriven and "
-                "Rivas 1975",
+                "Young-Laplace equation, Eq. (3.1) of Cai 2008, by Delaunay's surfaces; Orr, "
+                "Scriven and Rivas 1975",
             )
         if self.form == "arc":
             return (

@@ -75,7 +75,7 @@ class Rupture(FilmEnd):
             return (
                 "zero neck of the arc, section 3.2.1.4 of Cai and Bhushan 2007a: an upper bound",
             )
-        return ("break distance given with the scene",)
+        return ("break distance given with the scene, own choice",)
 
     def liquid_needs(self, scene: SeparationScene) -> tuple[str, ...]:
         """See `Effect.liquid_needs`."""

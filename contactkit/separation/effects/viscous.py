@@ -493,6 +493,16 @@ class TensionLimit(FilmLimit):
             return ("Swift-Stieber condition at the cavity edge; Resch and Scheidl 2014",)
         return ("parabolic pressure truncated at the limit; Scheidl and Gradl 2016",)
 
+    def cites(self, scene: SeparationScene) -> tuple[str, ...]:
+        """See `Effect.cites`; on a face, cells that are full or torn are found too."""
+        if not (self.follows_cavity and on_face(scene)):
+            return self.sources
+        return (
+            *self.sources,
+            "complementarity of pressure and void; Giacopini et al. 2010, Hintermueller, Ito and "
+            "Kunisch 2002, Woloszynski, Podsiadlo and Stachowiak 2015",
+        )
+
     @property
     def follows_cavity(self) -> bool:
         """Whether the cavity has an edge, and is remembered."""

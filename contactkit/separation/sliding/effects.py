@@ -220,8 +220,8 @@ class CouetteForce(SlidingForce):
                 f"Eq. (3.56) of Cai and Bhushan 2008b, as printed; {ERRATA['3.56']}",
             )
         if self.closure == "lubrication":
-            return flats, "Reynolds' equation in a round film; cf. Goldman, Cox and Brenner 1967"
-        return flats, "Couette flow in the film as thick as it is, Eq. (3.54)"
+            return flats, "Reynolds' equation in a round film; Goldman, Cox and Brenner 1967"
+        return flats, "Couette flow in the film as thick as it is, Eq. (3.54) of Cai 2008"
 
     def cites(self, scene: SeparationScene | SlidingScene) -> tuple[str, ...]:
         """See `Effect.cites`."""

@@ -62,7 +62,7 @@ class LiquidWeight(SeparationForce):
     supersedes: ClassVar[tuple[str, ...]] = ("Bond number", "weight of the meniscus over its force")
     sources = (
         "virtual work of the centroid of the exact bridge, first order in the Bond number: half on "
-        "each of two equal bodies",
+        "each of two equal bodies, own derivation",
     )
 
     body: Literal["upper", "lower"] = field(default="upper", validator=choice("upper", "lower"))

@@ -16,13 +16,19 @@ __all__ = ["cost", "fmu_start", "plan_text", "run"]
 
 Progress = Callable[[float], None]
 
+_SOURCES = (
+    "exact: Young-Laplace equation, Eq. (3.1) of Cai 2008; Orr, Scriven and Rivas 1975",
+    "arc: Eqs. (3.38)-(3.41) of Cai and Bhushan 2008a",
+    "as published: Eqs. (3.11), (3.12) of Cai and Bhushan 2007a",
+)
+
 
 def plan_text(scene: Bridges) -> str:
     """See `models.device.DeviceReport.plan_text`."""
     lines = [f"{scene.name}: exact, arc, and as published (Eqs. (3.11), (3.12), zero neck)"]
     lines += [f"  {case.label}" for case in scene.bridges]
-    lines.append("reference: Legendre's integrals; Orr, Scriven and Rivas 1975")
-    return "\n".join(lines)
+    lines.append("reference: Legendre's integrals")
+    return "\n".join([*lines, "sources:", *(f"  {source}" for source in _SOURCES)])
 
 
 def cost(scene: Bridges, out: Path | None, progress: Progress, error: float) -> Report:
