@@ -21,6 +21,13 @@ from contact_tables import head_disk_table, material_table, surface_kinds
 from device_tables import assumption_table
 from errata_table import errata_table
 from liquid_tables import liquid_source_table, liquid_table
+from paper_tables import (
+    check_sentence,
+    feature_table,
+    hard_case_sentence,
+    speed_sentence,
+    speed_table,
+)
 from validation_tables import (
     division_table,
     grid,
@@ -287,6 +294,11 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "mirror assumptions": lambda: assumption_table("micromirror"),
     "limits": limit_table,
     "api": api_table,
+    "paper features": feature_table,
+    "paper speed": speed_table,
+    "paper speed sentence": speed_sentence,
+    "paper hard cases": hard_case_sentence,
+    "paper checks": check_sentence,
 }
 
 

@@ -245,18 +245,19 @@ def _at(error: float, seconds: float) -> str:
 _PEERS = ("aspher", "SlipPY", "tamaas", "ContactMechanics", "reynoldsflow")
 
 
-def _ratios(found: Mapping[str, Any]) -> list[float]:
+def peer_ratios(found: Mapping[str, Any]) -> list[float]:
     """Seconds of the fastest accurate peer over ours, row by row."""
-    return [ratio for ratio in map(_ratio, found["rows"]) if ratio is not None]
+    return [ratio for ratio in map(peer_ratio, found["rows"]) if ratio is not None]
 
 
-def _ratio(row: Mapping[str, Any]) -> float | None:
+def peer_ratio(row: Mapping[str, Any]) -> float | None:
+    """Seconds of the fastest accurate peer over ours; none if there is no such peer."""
     good = [peer["seconds"] for peer in row["peers"].values() if peer["is_good"]]
     return min(good) / row["seconds"] if good else None
 
 
 def _peer_sentence(found: Mapping[str, Any]) -> str:
-    ratios = _ratios(found)
+    ratios = peer_ratios(found)
     return (
         f"**Other programs take {min(ratios):.1f} to {max(ratios):.0f} times as long, "
         f"{np.median(ratios):.1f} times in the middle,** on {len(ratios)} problems that both "
@@ -268,10 +269,10 @@ def _peers(found: Mapping[str, Any]) -> list[str]:
     """The section on other programs."""
     rows = []
     for row in found["rows"]:
-        ratio = _ratio(row)
+        ratio = peer_ratio(row)
         own = f"{_seconds(row['seconds'])} ({number(row['error'])})"
         over = "-" if ratio is None else f"{ratio:.1f}"
-        rows.append((f"{row['what']}, {row['n']}", own, _fastest(row["peers"]), over))
+        rows.append((f"{row['what']}, {row['n']}", own, fastest(row["peers"]), over))
     return [
         "## Other programs",
         "The same problems by contactkit and by other programs from PyPI, side by side, in one "
@@ -292,7 +293,7 @@ def _peers(found: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def _fastest(peers: Mapping[str, Mapping[str, Any]]) -> str:
+def fastest(peers: Mapping[str, Mapping[str, Any]]) -> str:
     """The fastest accurate peer, or the fastest of those that are not."""
     name, peer = min(peers.items(), key=lambda one: (not one[1]["is_good"], one[1]["seconds"]))
     error = "" if peer["error"] is None else f" ({number(peer['error'])})"
