@@ -1,4 +1,4 @@
-"""Tables and sentences of the paper (docs/paper): what the benchmarks measured, and what tests hold.
+"""Tables and sentences of the paper (docs/paper): what benchmarks measured, and what tests hold.
 
 No number of the paper is written by hand: each block between marks is made here.
 """
@@ -75,7 +75,7 @@ def check_sentence() -> str:
     solved = [p for p in studies["rough-contact"] if p["error"]]
     pixels = max(p["error"] for p in solved)
     return (
-        f"{len(STUDIES)} studies of accuracy and cost are run by one command each: release times of "
-        f"films on which two other codes agree are met to {worst:.0e}, pressures of rough contacts "
-        f"at the default tolerance to {pixels:.0e}."
+        f"{len(STUDIES)} studies of accuracy and cost are run by one command each: release times "
+        f"of films on which two other codes agree are met to {worst:.0e}, pressures of rough "
+        f"contacts at the default tolerance to {pixels:.0e}."
     )

@@ -4,9 +4,10 @@
     python tests/benchmarks/peers/exchange.py write problems
     python tests/benchmarks/peers/exchange.py grade problems answers
 
-``write`` makes ``problems.json`` and a map of heights ``NAME.bin`` for each problem: doubles, little
-end first, row by row. ``grade`` reads pressures ``NAME.bin`` of the same layout (or ``NAME.npy``)
-and marks them by an operator of its own, as it marks contactkit and all others. Needs numpy alone.
+``write`` makes ``problems.json`` and a map of heights ``NAME.bin`` for each problem: doubles,
+little end first, row by row. ``grade`` reads pressures ``NAME.bin`` of the same layout (or
+``NAME.npy``) and marks them by an operator of its own, as contactkit and all others are marked.
+Needs numpy alone.
 """
 
 from __future__ import annotations
