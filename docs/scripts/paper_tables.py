@@ -24,7 +24,7 @@ def _found(name: str) -> Any:
 
 
 def feature_table() -> str:
-    """What the programs compute, from the page that compares them."""
+    """Table of what the programs compute, from the page that compares them."""
     page = (DOCS / "compared.md").read_text("utf-8")
     part = page.partition("## Side by side\n\n")[2].partition("\n\n")[0]
     return re.sub(r"\[([^]]+)\]\([^)]+\)", r"\1", part)  # links of the site
@@ -44,7 +44,7 @@ def speed_table() -> str:
 
 
 def speed_sentence() -> str:
-    """How the ratios of all problems lie."""
+    """Least, middle and largest ratio of all problems."""
     ratios = sorted(peer_ratios(_found("peers")))
     below = sum(ratio < 1.0 for ratio in ratios)
     middle = ratios[len(ratios) // 2]
@@ -56,7 +56,7 @@ def speed_sentence() -> str:
 
 
 def hard_case_sentence() -> str:
-    """How many hard cases there are, and the largest error in them."""
+    """Number of hard cases, and the largest error in them."""
     cases: Mapping[str, Any] = _found("hard-cases")["cases"]
     lost = sum(one["naive"] is None or one["naive"] >= 0.01 for one in cases.values())
     worst = max(one["ours"] for one in cases.values())
@@ -68,7 +68,7 @@ def hard_case_sentence() -> str:
 
 
 def check_sentence() -> str:
-    """How many studies of accuracy there are, and what the release of a film is held to."""
+    """Number of studies of accuracy, and the errors of releases and of rough contacts."""
     studies = _found("accuracy-and-cost")["studies"]
     releases = [p for p in studies["releases"] if p["setting"] == "standard"]
     worst = max(p["error"] for p in releases)

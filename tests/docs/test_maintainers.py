@@ -1,4 +1,4 @@
-"""What maintainers of other programs are told to run: problems, marks, a program of their own."""
+"""What the page for maintainers shows: problems, marks, a program of their own."""
 
 import json
 import re
@@ -79,4 +79,4 @@ def test_a_program_of_a_reader_takes_part(tmp_path):
     (row,) = json.loads((tmp_path / "contact.json").read_text("utf-8"))["contest"]
     assert row["solver"] == "mine"
     assert row["iterations"] == 20
-    assert row["kkt"] > 1e-3  # twenty fixed steps, and it says so
+    assert row["kkt"] > 1e-3  # twenty fixed steps are not enough

@@ -55,7 +55,7 @@ def test_there_is_one_version():
         assert re.search(pattern, (ROOT / name).read_text("utf-8"), re.M)[1] == version
 
 
-def test_archives_are_told_what_the_index_is_told():
+def test_metadata_of_archives_and_of_the_index_agree():
     project, citation = PROJECT["project"], (ROOT / "CITATION.cff").read_text("utf-8")
     archive = json.loads((ROOT / ".zenodo.json").read_text("utf-8"))
     code = json.loads((ROOT / "codemeta.json").read_text("utf-8"))
