@@ -28,7 +28,10 @@ if TYPE_CHECKING:
     from ...scene.scenes import ContactScene
     from ...scene.window import Grid
     from ...validity import ValidityNumber
+    from ..outer.step import Solved
     from ..outer.unknown import Unknown
+    from ..plan import ContactPlan
+    from ..work import WorkCounter
     from .attraction_laws import TensionLaw
 
     Map = NDArray[np.float64]
@@ -255,6 +258,8 @@ class ContactEffect(Effect, Generic[Part]):
     """Whether it is right with pixels that carry no load and whose gap is not known."""
     takes_free_sheets: ClassVar[bool] = True
     """Whether it is right on an isolated sheet that slides on its base."""
+    takes_relaxation: ClassVar[bool] = False
+    """Whether it is right on bodies whose moduli depend on time."""
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """Name what this effect needs and `scene` does not give, with units."""
@@ -346,9 +351,16 @@ class LoadTerm(ContactEffect[Part]):
 class LoadHistory(ContactEffect[Part]):
     """Loads that the contact has carried before that of the scene; none or one."""
 
+    has_gradient: ClassVar[bool] = False
+    """Whether the contact is that of its last load alone while loads rise."""
+
     @abc.abstractmethod
     def loadings(self) -> tuple[ContactLoading, ...]:
         """Return the loadings before that of the scene, the first one first."""
+
+    @abc.abstractmethod
+    def follow(self, plan: ContactPlan, counter: WorkCounter) -> Solved:
+        """Solve the contacts of the loads; the last one is that of the plan."""
 
 
 @frozen(kw_only=True)

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...scene.scenes import ContactScene
+    from ..outer.step import Solved
+    from ..plan import ContactPlan
+    from ..work import WorkCounter
 
     Floats = NDArray[np.float64]
     Map = NDArray[np.float64]
@@ -146,6 +149,7 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
     """
 
     takes_holes: ClassVar[bool] = True
+    has_gradient: ClassVar[bool] = True
     name: ClassVar[str] = "plastic-history"
     summary: ClassVar[str] = "loads before, whose plastic deformation stays"
     figures: ClassVar[tuple[str, ...]] = ("force_approach", "residual_depth")
@@ -195,6 +199,12 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
             *(Pressing(force=one) for one in self.forces),
             *(Approach(approach=one) for one in self.approaches),
         )
+
+    def follow(self, plan: ContactPlan, counter: WorkCounter) -> Solved:
+        """See `LoadHistory.follow`."""
+        from ..plastic_history import follow_history
+
+        return follow_history(plan, self, counter)
 
     def observe(self, contact: SolvedContact) -> None:
         """See `ContactEffect.observe`: the part is made with the solve itself."""
