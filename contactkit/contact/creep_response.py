@@ -31,8 +31,6 @@ from .effects.base import Compliance
 from .prepared import PreparedInterface
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import NDArray
 
     from ..scene.materials import Stack
@@ -90,18 +88,11 @@ class CreepResponse:
         self.times = np.concatenate([_times(one) for one in self._bodies])
         self._made: dict[tuple[Shape, Pixel], Terms] = {}
 
-    @property
-    def instantaneous(self) -> tuple[SymbolMaker, ...]:
-        """What makes the symbol of both bodies for fast loading."""
-        return (self.over(0.0),)
-
-    @property
-    def equilibrium(self) -> tuple[SymbolMaker, ...]:
-        """What makes the symbol of both bodies after all relaxation."""
-        return (self.over(math.inf),)
-
     def over(self, duration: float) -> SymbolMaker:
-        """What makes the symbol of both bodies [m/Pa] over a step of a duration [s]."""
+        """Maker of the symbol of both bodies [m/Pa] over a step of a duration [s].
+
+        The instantaneous one of no duration, that at equilibrium of an infinite one.
+        """
         grown = weights(duration, self.times)[1]
 
         def symbol(shape: Shape, pixel_size: Pixel) -> Map:
@@ -114,15 +105,15 @@ class CreepResponse:
         """Terms on a grid, made once."""
         key = (shape, pixel_size)
         if key not in self._made:
-            self._made[key] = self._on(lambda makers: makers(shape, pixel_size))
+            self._made[key] = self._terms(shape, pixel_size)
         return self._made[key]
 
-    def _on(self, symbol: Callable[[SymbolMaker], Map]) -> Terms:
+    def _terms(self, shape: Shape, pixel_size: Pixel) -> Terms:
         slow, fast = (self._makers(rate) for rate in (0.0, math.inf))
         rests: list[Map] = []
         terms: list[Map] = []
         for i, body in enumerate(self._bodies):
-            at_once, rest = symbol(fast[i]), symbol(slow[i])
+            at_once, rest = fast[i](shape, pixel_size), slow[i](shape, pixel_size)
             if isinstance(body, CreepSeries):
                 ratios = body.compliances / body.instantaneous
                 terms.append(ratios[:, None, None] * at_once)
@@ -131,7 +122,7 @@ class CreepResponse:
                 columns = body.common.matrix.T[:, :, None, None]
                 found = columns[0] * at_once + columns[1] * rest
                 for column, rate in zip(columns[2:], body.common.rates, strict=True):
-                    found += column * symbol(self._makers(float(rate))[i])
+                    found += column * self._makers(float(rate))[i](shape, pixel_size)
                 terms.append(found)
             rests.append(rest)
         return Terms(np.sum(rests, axis=0), np.concatenate(terms))
@@ -194,7 +185,7 @@ def _losses(duration: float, times: Map) -> tuple[Map, Map, Map]:
 
 
 class CreepHistory:
-    """What a contact has carried so far, and the bodies that remember it.
+    """Memory of the bodies of a contact: the pressures that they have carried.
 
     Parameters
     ----------
@@ -219,7 +210,8 @@ class CreepHistory:
         self._states: Spectrum = np.zeros((response.times.size, *shape), dtype=np.complex128)
         self._pressure: Spectrum = np.zeros(shape, dtype=np.complex128)
         self._solvers: dict[float, PreparedInterface] = {}
-        self._self_influence = interface.with_compliances(response.equilibrium).self_influence
+        # Of the softest contact, so that laws which the grid softens are the same at each step.
+        self._self_influence = interface.with_compliances((response.over(math.inf),)).self_influence
         self._once = self._symbol.equilibrium - self._symbol.terms.sum(axis=0)
         self.stored = self.dissipated = 0.0
 

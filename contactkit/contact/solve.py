@@ -16,14 +16,15 @@ from ..validity import warn
 from .effects.base import (
     AttractedContact,
     Attraction,
-    LoadHistory,
     LoadTerm,
     SolvedContact,
     SurfaceTraction,
     effects_of,
 )
 from .effects.partial_slip import PartialSlip
+from .effects.plastic_history import PlasticHistory
 from .effects.plasticity import HardnessLimit
+from .effects.viscoelasticity import Viscoelasticity
 from .film_estimate import self_consistent_force
 from .outer.load import solve_loaded
 from .outer.step import Solved, Step
@@ -159,8 +160,14 @@ def _solved(plan: ContactPlan, target: Target, counter: WorkCounter) -> Solved:
         from .slip_path import follow_coupled
 
         return follow_coupled(plan, slip, counter)
-    if (history := plan.scene.effect(LoadHistory)) is not None:
-        return history.follow(plan, counter)
+    if (history := plan.scene.effect(PlasticHistory)) is not None:
+        from .plastic_history import follow_history
+
+        return follow_history(plan, history, counter)
+    if (creep := plan.scene.effect(Viscoelasticity)) is not None:
+        from .viscoelastic_path import follow_loads
+
+        return follow_loads(plan, creep, counter)
     step = Step(plan, counter)
     return step.finished(solve_loaded(step, target), target)
 

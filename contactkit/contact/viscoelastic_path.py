@@ -13,7 +13,7 @@ from .outer.load import solve_loaded
 from .outer.step import Solved, Step
 from .outer.unknown import Target
 from .plan import ContactPlan
-from .prepared import Once
+from .prepared import Once, PreparedInterface
 from .work import WorkCounter
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def follow_loads(plan: ContactPlan, effect: Viscoelasticity, counter: WorkCounte
     last: Solved | None = None
     for number, instant in enumerate(_instants(plan, effect), 1):
         interface = history.interface_after(instant.duration)
-        step = Step(evolve(plan, interface=Once(lambda made=interface: made)), counter)
+        step = Step(_on(plan, interface), counter)
         target = _target(plan, instant.value)
         solved = solve_loaded(step, target if last is None else last.near(target))
         displaced = plan.heights - interface.heights
@@ -76,6 +76,11 @@ def follow_loads(plan: ContactPlan, effect: Viscoelasticity, counter: WorkCounte
             break
         last = solved if solved.pressure.any() else None
     return _finished(plan, solved, displaced, _part(plan, rows, [*kept.values()]))
+
+
+def _on(plan: ContactPlan, interface: PreparedInterface) -> ContactPlan:
+    """Plan of the elastic contact of one step."""
+    return evolve(plan, interface=Once(lambda: interface))
 
 
 def _instants(plan: ContactPlan, effect: Viscoelasticity) -> list[_Instant]:
@@ -132,7 +137,18 @@ def _part(plan: ContactPlan, rows: list[_Row], kept: list[Map]) -> Viscoelastici
     maps = np.array(kept) if kept else np.zeros((0, *plan.grid.shape))
     for one in (curves, maps):
         one.flags.writeable = False
-    return ViscoelasticityPart(*curves, maps)
+    time, load, approach, area, peak, elastic, dissipated, work = curves
+    return ViscoelasticityPart(
+        time=time,
+        load=load,
+        approach=approach,
+        contact_area=area,
+        max_pressure=peak,
+        elastic_energy=elastic,
+        dissipated_energy=dissipated,
+        external_work=work,
+        pressures=maps,
+    )
 
 
 def _finished(

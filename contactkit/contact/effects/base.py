@@ -28,10 +28,7 @@ if TYPE_CHECKING:
     from ...scene.scenes import ContactScene
     from ...scene.window import Grid
     from ...validity import ValidityNumber
-    from ..outer.step import Solved
     from ..outer.unknown import Unknown
-    from ..plan import ContactPlan
-    from ..work import WorkCounter
     from .attraction_laws import TensionLaw
 
     Map = NDArray[np.float64]
@@ -357,10 +354,6 @@ class LoadHistory(ContactEffect[Part]):
     @abc.abstractmethod
     def loadings(self) -> tuple[ContactLoading, ...]:
         """Return the loadings before that of the scene, the first one first."""
-
-    @abc.abstractmethod
-    def follow(self, plan: ContactPlan, counter: WorkCounter) -> Solved:
-        """Solve the contacts of the loads; the last one is that of the plan."""
 
 
 @frozen(kw_only=True)

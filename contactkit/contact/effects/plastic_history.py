@@ -20,9 +20,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...scene.scenes import ContactScene
-    from ..outer.step import Solved
-    from ..plan import ContactPlan
-    from ..work import WorkCounter
 
     Floats = NDArray[np.float64]
     Map = NDArray[np.float64]
@@ -199,12 +196,6 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
             *(Pressing(force=one) for one in self.forces),
             *(Approach(approach=one) for one in self.approaches),
         )
-
-    def follow(self, plan: ContactPlan, counter: WorkCounter) -> Solved:
-        """See `LoadHistory.follow`."""
-        from ..plastic_history import follow_history
-
-        return follow_history(plan, self, counter)
 
     def observe(self, contact: SolvedContact) -> None:
         """See `ContactEffect.observe`: the part is made with the solve itself."""

@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...scene.scenes import ContactScene
-    from ..outer.step import Solved
-    from ..plan import ContactPlan
-    from ..work import WorkCounter
 
     Floats = NDArray[np.float64]
 
@@ -135,7 +132,7 @@ class Viscoelasticity(LoadHistory[ViscoelasticityPart]):
     takes_relaxation: ClassVar[bool] = True
     name: ClassVar[str] = "viscoelasticity"
     summary: ClassVar[str] = "loads over time, on bodies whose moduli relax"
-    figures: ClassVar[tuple[str, ...]] = ("viscoelastic_curves",)
+    figures: ClassVar[tuple[str, ...]] = ("time_curves", "load_loop")
     records: ClassVar[tuple[type, ...]] = (ViscoelasticityPart,)
     arrays: ClassVar[tuple[Array, ...]] = (
         *(Array(f"history_{name}", unit, attrgetter(name), ("state",)) for name, unit in _CURVES),
@@ -202,12 +199,6 @@ class Viscoelasticity(LoadHistory[ViscoelasticityPart]):
             *(Pressing(force=one) for one in self.forces),
             *(Approach(approach=one) for one in self.approaches),
         )
-
-    def follow(self, plan: ContactPlan, counter: WorkCounter) -> Solved:
-        """See `LoadHistory.follow`."""
-        from ..viscoelastic_path import follow_loads
-
-        return follow_loads(plan, self, counter)
 
     def observe(self, contact: SolvedContact) -> None:
         """See `ContactEffect.observe`: the part is made with the solve itself."""
