@@ -139,7 +139,7 @@ SOLIDS: Registry[Any] = Registry(
     tag="kind",
     group="contactkit.solids",
     role="Solid",
-    naming="implied",
+    naming=("material", "stack"),
 )
 """What bodies are made of. A `Layer` is a part of a stack, and a `RigidBase` one of the three
 conditions below layers that the elasticity of layered half-spaces knows (an endless substrate,

@@ -205,7 +205,9 @@ def fit_prony(
 
     Notes
     -----
-    Outside the range of the table the series is a guess: it has a plateau on both sides.
+    Outside the range of the table the series is a guess: it has a plateau on both sides. A single
+    exponential between the times is missed by 5 % at most with two terms to a decade; the broad
+    spectra of polymers are met better.
 
     Examples
     --------
@@ -238,7 +240,7 @@ def fit_prony(
     rows = [np.column_stack([np.ones(omega.size), storing]), np.pad(losing, ((0, 0), (1, 0)))]
     matrix = np.concatenate([one / size[:, None] for one in rows])
     found, _ = nnls(matrix, np.concatenate([elastic / size, viscous / size]))
-    if not found[0] > 0.0:
+    if not found[0] > _ZERO * found.sum():
         raise DescriptionError(
             "fit_prony(storage)",
             float(elastic[np.argmin(omega)]),

@@ -26,9 +26,9 @@ def _poisson(owner: object, attribute: Attribute[Any], value: Any) -> None:
 def needs_time(material: Material) -> str:
     """State that the modulus of a viscoelastic material depends on time, and the cure."""
     return (
-        f"{material.name} is viscoelastic, and elasticity needs one modulus: list "
-        "Viscoelasticity(times=...) among the effects of a contact, or give the elastic material "
-        "of slow (solid.equilibrium) or of fast loading (solid.instantaneous)"
+        f"{material.name} is viscoelastic, and here one modulus is needed: in a contact list "
+        "Viscoelasticity(times=...) among the effects (press: give hold), elsewhere give the "
+        "elastic material of slow loading, solid.equilibrium, or of fast, solid.instantaneous"
     )
 
 

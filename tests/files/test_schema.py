@@ -165,6 +165,7 @@ EXTRA = {
     "ContactAngleHysteresis": {"advancing_lower": "60 deg", "receding_lower": "20 deg"},
     "PartialSlip": {"path": [{"ratio": 0.5}]},
     "PlasticHistory": {"pressures": "1 MPa"},
+    "ViscoelasticMaterial": {"fractions": [0.5, 0.2], "times": ["1 ms", "1 s"]},
     "WaltherViscosity": {
         "temperature_2": "100 degC",
         "kinematic_viscosity_1": "105 cSt",
