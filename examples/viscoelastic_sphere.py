@@ -74,7 +74,7 @@ def release(ax: Any) -> float:
         )
         worst = max(worst, float(np.abs(part.load[1:] - exact).max() / exact.max()))
         lost = part.dissipated_energy[-1] / part.external_work.max()
-        label = f"{turn:g} s each way, {lost:.0%} of the work dissipated"
+        label = f"{turn:g} s in, {turn:g} s out, {lost:.0%} of the work dissipated"
         ax.plot(1e9 * part.approach, 1e6 * part.load, line, color=colour, label=label)
         ax.plot(1e9 * part.approach[1::4], 1e6 * exact[::4], "k.", ms=4.0)
     ax.plot([], [], "k.", ms=4.0, label="Ting")

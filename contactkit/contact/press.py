@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
@@ -24,7 +23,6 @@ from .effects.base import ContactEffect
 from .effects.elasticity import HalfSpace, LayeredHalfSpace
 from .effects.hardness_rules import ConstantHardness, HardnessMap
 from .effects.plasticity import HardnessLimit
-from .effects.viscoelasticity import Viscoelasticity
 from .plan import plan_contact
 from .result import ContactResult
 from .solve import solve_unwarned
@@ -33,10 +31,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = ["press"]
-
-# Of the shortest relaxation time: the first state of a held load. The approach of a sphere is
-# within 1e-4 of Lee and Radok at all times.
-_FIRST = 0.03
 
 
 def press(
@@ -49,7 +43,6 @@ def press(
     rtol: float = 1e-8,
     threads: int = 1,
     detrend: Trend = "none",
-    hold: float | str | None = None,
 ) -> ContactResult:
     """Press a rigid rough body on a flat solid.
 
@@ -81,9 +74,6 @@ def press(
         Threads of the transforms.
     detrend : {"none", "mean", "tilt", "curvature"}
         What is taken off the heights by least squares over the pixels that are no holes.
-    hold : float, optional
-        How long the load has been held [s] since it was applied at once: of viscoelastic solids,
-        which need it. ``result.of(ck.Viscoelasticity)`` has the creep up to then.
 
     Returns
     -------
@@ -129,8 +119,6 @@ def press(
         is_map = np.ndim(hardness) > 0
         given = HardnessMap(hardness) if is_map else _number(hardness, "Pa", "hardness")
         effects.append(HardnessLimit(rule=ConstantHardness(hardness=given)))
-    if hold is not None:
-        effects.append(_held(flat, _number(hold, "s", "hold")))
     surface = _level(_surface(heights, pixel_size), detrend)
     scene = ContactScene(
         interface=Interface(lower=Body(solid=stack), upper=Body(surface=surface)),
@@ -142,17 +130,6 @@ def press(
     warn(result.validity)
     said = f"{_holes(surface)}; {_tilt(surface, detrend)}"
     return evolve(result, message=f"{result.message}{said}")
-
-
-def _held(flat: Body, duration: float) -> Viscoelasticity:
-    """Times of a load that is held: four to a decade, from before the first relaxation on."""
-    series = [one.relaxation for one in flat.elastic_stack.materials]
-    shortest = min((float(np.min(one.times)) for one in series if one is not None), default=0.0)
-    first = _FIRST * shortest
-    if not 0.0 < first < duration:
-        return Viscoelasticity(times=duration)
-    n = 1 + math.ceil(4.0 * math.log10(duration / first))
-    return Viscoelasticity(times=tuple(np.geomspace(first, duration, n).tolist()), steps=1)
 
 
 def _number(given: Any, unit: str, name: str) -> float:

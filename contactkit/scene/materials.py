@@ -27,8 +27,8 @@ def needs_time(material: Material) -> str:
     """State that the modulus of a viscoelastic material depends on time, and the cure."""
     return (
         f"{material.name} is viscoelastic, and here one modulus is needed: in a contact list "
-        "Viscoelasticity(times=...) among the effects (press: give hold), elsewhere give the "
-        "elastic material of slow loading, solid.equilibrium, or of fast, solid.instantaneous"
+        "Viscoelasticity(times=...) among the effects of its scene, elsewhere give the elastic "
+        "material of slow loading, solid.equilibrium, or of fast, solid.instantaneous"
     )
 
 
