@@ -28,9 +28,10 @@ Array = NDArray[np.float64]
 PER_DECADE = 6.0
 # Rates beyond both ends of the range, as powers of e.
 _BEYOND = 2.0
-# Singular values below this fraction of the largest are left out: the matrix then multiplies the
-# round-off of C by at most 1e7, and the terms add up to 4 times their sum (50 times at 1e-10).
-_LEAST = 1e-7
+# Singular values below this fraction of the largest are left out. An exponential among times of 3
+# decades is then met to 3e-5 of the compliance at any time; of 6 decades, where the instantaneous
+# compliance is a millionth, to 6e-3 of it (0.4 at 1e-7, and at 1e-12 round-off of C: 2).
+_LEAST = 1e-9
 
 
 class CommonTimes(NamedTuple):

@@ -123,7 +123,9 @@ class Viscoelasticity(LoadHistory[ViscoelasticityPart]):
     -----
     Contact area and pressure may rise and fall at any time. Homogeneous bodies have the exact
     retardation times of their material; layers that relax differently have common ones, which meet
-    both elastic limits exactly, and any time in between to 1e-4 of the creep. Beside `Adhesion` the
+    both elastic limits exactly, and times in between to 1e-5 of the creep. Steps much longer than
+    the relaxation times swing at a held approach, and dissipate too much: `work_error` shows it,
+    and times equally spaced in their logarithm avoid it. Beside `Adhesion` the
     loss of the solids makes the pull-off depend on the speed. Left out: a Poisson's ratio that
     changes with time, nonlinear and plastic flow, heat, inertia.
     """
