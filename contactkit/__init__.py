@@ -78,6 +78,7 @@ if TYPE_CHECKING:
     from .contact.effects.plastic_history import PlasticHistory
     from .contact.effects.plasticity import HardnessLimit
     from .contact.effects.stress import SubsurfaceStress
+    from .contact.effects.viscoelasticity import Viscoelasticity
     from .contact.functionals import Functional, Slopes
     from .contact.plan import ContactPlan
     from .contact.press import press
@@ -147,6 +148,7 @@ if TYPE_CHECKING:
     )
     from .scene.scenes import ContactScene, SeparationScene, SlidingScene
     from .scene.surfaces import FineRoughness, Flat, Paraboloid, Sphere, Wave
+    from .scene.viscoelastic import ViscoelasticMaterial
     from .scene.window import Window
     from .separation.deforming.effects import ElasticBodies, SolidContact
     from .separation.deforming.plan import DeformingPlan
@@ -299,6 +301,8 @@ _HOMES = {
     "VanDerWaalsForce": "separation.effects.adhesion",
     "Vent": "scene.faces",
     "Vibration": "scene.loading",
+    "ViscoelasticMaterial": "scene.viscoelastic",
+    "Viscoelasticity": "contact.effects.viscoelasticity",
     "ViscousForce": "separation.effects.viscous",
     "Wave": "scene.surfaces",
     "Window": "scene.window",
@@ -465,6 +469,8 @@ __all__ = [
     "VanDerWaalsForce",
     "Vent",
     "Vibration",
+    "ViscoelasticMaterial",
+    "Viscoelasticity",
     "ViscousForce",
     "Wave",
     "Window",

@@ -100,6 +100,7 @@ CONTACT_EFFECTS: Registry[Any] = _effects(
         "hardness-limit": "contact.effects.plasticity:HardnessLimit",
         "adhesion": "contact.effects.adhesion:Adhesion",
         "plastic-history": "contact.effects.plastic_history:PlasticHistory",
+        "viscoelasticity": "contact.effects.viscoelasticity:Viscoelasticity",
         "friction-traction": "contact.effects.friction:FrictionTraction",
         "friction-coupling": "contact.effects.friction:FrictionCoupling",
         "partial-slip": "contact.effects.partial_slip:PartialSlip",
@@ -130,11 +131,15 @@ SURFACES: Registry[Any] = Registry(
 )
 SOLIDS: Registry[Any] = Registry(
     "solid",
-    {"material": "scene.materials:Material", "stack": "scene.materials:Stack"},
+    {
+        "material": "scene.materials:Material",
+        "viscoelastic": "scene.viscoelastic:ViscoelasticMaterial",
+        "stack": "scene.materials:Stack",
+    },
     tag="kind",
     group="contactkit.solids",
     role="Solid",
-    naming="implied",
+    naming=("material", "stack"),
 )
 """What bodies are made of. A `Layer` is a part of a stack, and a `RigidBase` one of the three
 conditions below layers that the elasticity of layered half-spaces knows (an endless substrate,

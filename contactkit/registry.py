@@ -166,9 +166,9 @@ class Registry(_Listing[T_co]):
         What the base class is, for messages.
     attribute : str
         Attribute of a class that is its name in files.
-    naming : {"tagged", "plain", "implied"}
+    naming : {"tagged", "plain"} or tuple of str
         How files name a kind: by the tag in its table; ``"plain"``: also by its name alone where
-        its fields are at their defaults; ``"implied"``: those of contactkit by their keys alone.
+        its fields are at their defaults; a tuple: those kinds by their keys alone.
 
     Examples
     --------
@@ -191,12 +191,12 @@ class Registry(_Listing[T_co]):
         group: str = "",
         role: str = "",
         attribute: str = "kind",
-        naming: Literal["tagged", "plain", "implied"] = "tagged",
+        naming: Literal["tagged", "plain"] | tuple[str, ...] = "tagged",
     ) -> None:
         self.family, self.homes, self.tag, self.group = family, homes, tag, group
         self.what = what or family
         self.role, self.attribute, self.plain = role, attribute, naming == "plain"
-        self.implied = tuple(homes) if naming == "implied" else ()
+        self.implied = naming if isinstance(naming, tuple) else ()
         self.own: dict[str, type[T_co]] = {}
         """Classes that `register` was given, by their names."""
 

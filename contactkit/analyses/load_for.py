@@ -135,7 +135,10 @@ def load_of_first_yield(
 def _found(plan: ContactPlan, of: Callable[[ContactResult], float], rtol: float) -> LoadFor:
     """Load at which a growing number is 1: secants in logarithms inside a bracket, or halving."""
     stacks = plan.scene.interface.stacks
-    modulus = min(max(m.plane_strain_modulus for m in stack.materials) for stack in stacks)
+    modulus = min(
+        max(one.at_rate(math.inf).plane_strain_modulus for one in stack.materials)
+        for stack in stacks
+    )
     chain = ContactChain()
 
     def at(p: float) -> LoadFor:

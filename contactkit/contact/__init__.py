@@ -17,6 +17,8 @@ adjoint        Gradient of such a number: one more solve with the same operator.
 attracted      Linear response of a contact with an attraction, for its gradient.
 outer          Outer iteration: unknowns of the effects that agree with the contact.
 slip_path      Partial slip of dissimilar bodies: pressing in steps, then a tangential load path.
+creep_response Compliance of viscoelastic bodies over a time step; what they remember.
+viscoelastic_path Steps of a viscoelastic contact over time.
 plastic_history Steps of a loading history; the surface that a plastic contact leaves.
 film_estimate  Size of a film force that is reported only, were it in balance.
 effects        The physics a contact scene may list.

@@ -119,6 +119,8 @@ def check_differentiable(plan: ContactPlan, of: str) -> None:
     """
     scene = plan.scene
     history, term = scene.effect(LoadHistory), scene.effect(DisplacementTerm)
+    if history is not None and not history.has_gradient:
+        raise _refused(type(history).__name__, "the contact depends on all pressures before it")
     if history is not None and not _only_rises(plan, history):
         reason = "the shape depends on a load before that was as large or larger"
         raise _refused(type(history).__name__, reason)

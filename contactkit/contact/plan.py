@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -16,6 +17,7 @@ from ..registry import Registry
 from ..scene.effect import check_listed
 from ..scene.figures import Drawn
 from ..scene.loading import ContactLoading
+from ..scene.materials import needs_time
 from ..scene.plan import ScenePlan
 from ..scene.scenes import ContactScene
 from ..scene.surfaces import Flat
@@ -62,7 +64,9 @@ def _hardness(plan: ContactPlan) -> HardnessLaw | None:
 
 
 def _interface(plan: ContactPlan) -> Once[PreparedInterface]:
-    return Once(partial(PreparedInterface, plan.scene, plan.grid, plan.accuracy.threads))
+    # Of bodies that relax, the instantaneous compliance.
+    scene = evolve(plan.scene, interface=plan.scene.interface.at_rate(math.inf))
+    return Once(partial(PreparedInterface, scene, plan.grid, plan.accuracy.threads))
 
 
 def _coupling(plan: ContactPlan) -> Once[Callable[[Map], Map]] | None:
@@ -269,6 +273,7 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     made = ContactPlan(scene, accuracy, grid)
     _check_liquid(made)
     _check_holes(scene)
+    _check_relaxation(scene)
     _check_free_sheets(scene, grid)
     for one in (*_before(made), made):
         _check_size(one)
@@ -356,6 +361,25 @@ def _check_holes(scene: ContactScene) -> None:
         raise PlanError("; ".join(problems))
 
 
+def _check_relaxation(scene: ContactScene) -> None:
+    """Refuse moduli that depend on time without a history, or beside effects of elastic bodies."""
+    materials = [one for stack in scene.interface.stacks for one in stack.materials]
+    relaxing = [one for one in materials if one.relaxation is not None]
+    if not relaxing:
+        return
+    history = scene.effect(LoadHistory)
+    if history is None or not history.takes_relaxation:
+        raise PlanError(needs_time(relaxing[0]))
+    problems = [
+        f"{type(effect).__name__} needs elastic bodies, and {relaxing[0].name} is viscoelastic; "
+        "leave it out, or give the elastic material solid.equilibrium or solid.instantaneous"
+        for effect in effects_of(scene)
+        if not effect.takes_relaxation
+    ]
+    if problems:
+        raise PlanError("; ".join(problems))
+
+
 def _check_free_sheets(scene: ContactScene, grid: Grid) -> None:
     """Refuse an effect under which a body slides off along its base."""
     is_free = any(stack.base == "frictionless" for stack in scene.interface.stacks)
@@ -387,7 +411,7 @@ def _check_size(made: ContactPlan) -> None:
     loading, load = made.scene.loading, made.mean_pressure
     # Of the stiffest layer, as a soft one may be thin.
     modulus = min(
-        max(material.plane_strain_modulus for material in stack.materials)
+        max(one.at_rate(math.inf).plane_strain_modulus for one in stack.materials)
         for stack in made.scene.interface.stacks
     )
     if load is not None and not load <= _LARGEST * modulus:

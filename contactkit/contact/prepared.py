@@ -78,6 +78,8 @@ class PreparedInterface:
         For each deforming body a function that makes its symbol.
     solver : ContactSolver
         For the compliance of both bodies together.
+    self_influence : float
+        Displacement of a pixel under unit pressure on itself [m/Pa], for the laws of effects.
     """
 
     def __init__(self, scene: ContactScene, grid: Grid, threads: int) -> None:
@@ -85,15 +87,21 @@ class PreparedInterface:
         self.heights = combined_heights(scene, grid)
         self.heights.flags.writeable = False
         self.holes = holes_of(scene)
-        self.compliances = scene.demand(Compliance).prepare(scene, grid)
+        self._deform(scene.demand(Compliance).prepare(scene, grid))
+
+    def _deform(self, compliances: tuple[SymbolMaker, ...]) -> None:
+        """Make what deforms by functions that make the symbol of each body."""
+        grid = self.grid
+        self.compliances = compliances
         self.solver = ContactSolver(
             grid.shape,
             grid.pixel_size,
-            summed_compliance(self.compliances),
+            summed_compliance(compliances),
             grid.edges,
-            threads=threads,
+            threads=self._threads,
         )
-        self._bodies = Once(lambda: tuple(self._operator(make) for make in self.compliances))
+        self.self_influence = self.solver.self_influence
+        self._bodies = Once(lambda: tuple(self._operator(make) for make in compliances))
         self._lock = threading.Lock()
 
     @property
@@ -106,6 +114,21 @@ class PreparedInterface:
         made = copy.copy(self)
         made.heights = heights
         made.heights.flags.writeable = False
+        return made
+
+    def with_compliances(self, compliances: tuple[SymbolMaker, ...]) -> PreparedInterface:
+        """Return the interface of the same shape on bodies of another compliance."""
+        made = copy.copy(self)
+        made._deform(compliances)
+        return made
+
+    def with_self_influence(self, self_influence: float) -> PreparedInterface:
+        """Return the interface with another self-influence [m/Pa] for the laws of effects.
+
+        Laws that the grid softens must not change with the compliance of a time step.
+        """
+        made = copy.copy(self)
+        made.self_influence = self_influence
         return made
 
     @property

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,13 +33,15 @@ def contact_scales(scene: ContactScene, heights: NDArray[np.float64], area: floa
     Notes
     -----
     Pressures are divided by the reduced modulus E* of the substrates (of the lowest layers on a
-    rigid base), so that structures on one substrate share it. Where a body is a sphere or a
+    rigid base), the instantaneous one of materials that relax, so that structures on one substrate
+    share it. Where a body is a sphere or a
     paraboloid, rough or not, lengths are divided by its relative radius R, areas by R^2, forces
     by E* R^2, energies by E* R^3; elsewhere by the rms height and the area A of the window, E* A
     and E* A rms.
     """
     modulus = 1.0 / sum(
-        1.0 / stack.materials[-1].plane_strain_modulus for stack in scene.interface.stacks
+        1.0 / stack.materials[-1].at_rate(math.inf).plane_strain_modulus
+        for stack in scene.interface.stacks
     )
     curvature = sum(body.surface.body_curvature for body in scene.interface.bodies)
     if curvature > 0.0:

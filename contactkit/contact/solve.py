@@ -24,6 +24,7 @@ from .effects.base import (
 from .effects.partial_slip import PartialSlip
 from .effects.plastic_history import PlasticHistory
 from .effects.plasticity import HardnessLimit
+from .effects.viscoelasticity import Viscoelasticity
 from .film_estimate import self_consistent_force
 from .outer.load import solve_loaded
 from .outer.step import Solved, Step
@@ -163,6 +164,10 @@ def _solved(plan: ContactPlan, target: Target, counter: WorkCounter) -> Solved:
         from .plastic_history import follow_history
 
         return follow_history(plan, history, counter)
+    if (creep := plan.scene.effect(Viscoelasticity)) is not None:
+        from .viscoelastic_path import follow_loads
+
+        return follow_loads(plan, creep, counter)
     step = Step(plan, counter)
     return step.finished(solve_loaded(step, target), target)
 

@@ -11,6 +11,10 @@ point_load       Surface displacement under a point load, tabulated over the rad
 influence        Influence coefficients of non-periodic contacts.
 isolated_map     Displacement of maps without periodic images, and of waves.
 one_axis         Influence coefficients of windows that repeat along one axis.
+transverse_isotropy
+                 Transversely isotropic half-space: the modulus of its normal compliance.
+prony            Relaxation modulus as a Prony series: creep, complex modulus, fit.
+creep_symbol     Creep of a layered solid at every wavenumber, from its compliance at some rates.
 rings            Displacement under axisymmetric pressures that are linear between rings.
 hardness_rules   Hardness of a layered solid over the depth of indentation.
 tangential       Tangential displacement under tangential tractions, on a grid.

@@ -166,7 +166,7 @@ def _substrate_name(body: Body) -> str:
     """Choice that stands for the solid of a body; empty if none does."""
     if body.solid is None:
         return RIGID
-    if isinstance(body.solid, Material):
+    if type(body.solid) is Material:  # not one with more fields than the form has
         return _name_of(body.solid) or OWN
     if not isinstance(body.solid, Stack) or body.solid.name or body.solid.base is not None:
         return ""
@@ -265,7 +265,7 @@ def _body_parts(
     layers = [taken.get(f"{place}.layers.{i}", NONE) for i in range(_LAYERS)]
     names = [layer for layer in layers if layer != NONE]
     below = f"{place}.substrate" if names else place
-    own = body.solid if isinstance(body.solid, Material) and name == OWN else None
+    own = body.solid if type(body.solid) is Material and name == OWN else None
     widgets = list(_thicknesses(body, place, names))
     if name == OWN:
         widgets += widgets_of(Material, below, own, skip=_SAID)

@@ -10,6 +10,7 @@ view3d      Surface, pressure and stress in three dimensions, through pyvista.
 explore     A map with sections that follow the mouse, and a slider over depth.
 slip        Partial slip and stick-slip.
 plastic_history Loading histories: force over approach, residual depth.
+viscoelastic Viscoelastic contacts: load, approach and area over time; load over approach.
 adhesion    Load and area over the approach of contacts under adhesion.
 load_displacement Load-displacement curves: first loading and unloading.
 roughness   Rough surfaces: area over load beside theories, spectra, patches.

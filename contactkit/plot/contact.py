@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -178,7 +179,9 @@ def stack_section(stack: Stack, ax: Axes | None = None, title: str = "") -> Axes
         else:
             thickness = "half-space"
         hardness = f", H {material.hardness / 1e9:.3g} GPa" if material.hardness else ""
-        numbers = f"E {material.young_modulus / 1e9:.4g} GPa, nu {material.poisson_ratio:g}"
+        moduli = dict.fromkeys(material.at_rate(rate).young_modulus for rate in (math.inf, 0.0))
+        modulus = " to ".join(f"{one / 1e9:.4g}" for one in moduli)  # at once, and relaxed
+        numbers = f"E {modulus} GPa, nu {material.poisson_ratio:g}"
         light = i % len(_LAYER_COLOURS) < 2
         ax.text(
             0.5,

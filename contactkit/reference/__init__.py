@@ -4,6 +4,7 @@ Closed forms, other numerical methods, and fits that others have published.
 
 hertz            Hertz: sphere on a half-space.
 flat_punch       Flat cylindrical punch on a half-space.
+viscoelastic     Sphere on a viscoelastic half-space: Lee and Radok; Ting.
 westergaard      Westergaard: rigid wave in one direction.
 product_wave     Johnson, Greenwood and Higginson: rigid wave in two directions.
 love_patch       Uniform pressure on a rectangle, by quadrature.

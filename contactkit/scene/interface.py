@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from ..errors import DescriptionError, PlanError
 from ..validators import Described, optional, part
@@ -99,6 +99,16 @@ class Interface(Described):
     def stacks(self) -> tuple[Stack, ...]:
         """Stacks of the bodies that deform, the lower first."""
         return tuple(body.stack for body in self.bodies if body.stack is not None)
+
+    def at_rate(self, rate: float) -> Interface:
+        """Interface of elastic bodies, of the moduli at a rate [1/s]; see `Material.at_rate`."""
+        if not any(stack.relaxes for stack in self.stacks):
+            return self
+        lower, upper = (
+            body if body.stack is None else evolve(body, solid=body.stack.at_rate(rate))
+            for body in self.bodies
+        )
+        return evolve(self, lower=lower, upper=upper)
 
     @property
     def curvatures(self) -> tuple[float, float]:

@@ -3,20 +3,33 @@
 from __future__ import annotations
 
 import abc
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
-from attrs import Attribute, field, frozen
+from attrs import Attribute, evolve, field, frozen
 
+from ..errors import PlanError
 from ..units import si
 from ..validators import Described, as_tuple, optional, part, positive, refuse
 
-__all__ = ["Layer", "Material", "RigidBase", "Solid", "Stack"]
+if TYPE_CHECKING:
+    from ..elasticity.prony import PronySeries
+
+__all__ = ["Layer", "Material", "RigidBase", "Solid", "Stack", "needs_time"]
 
 
 def _poisson(owner: object, attribute: Attribute[Any], value: Any) -> None:
     number = isinstance(value, int | float) and not isinstance(value, bool)
     if not (number and -1.0 < value <= 0.5):
         raise refuse(owner, attribute, value, "lie above -1 and not above 0.5")
+
+
+def needs_time(material: Material) -> str:
+    """State that the modulus of a viscoelastic material depends on time, and the cure."""
+    return (
+        f"{material.name} is viscoelastic, and here one modulus is needed: in a contact list "
+        "Viscoelasticity(times=...) among the effects of its scene, elsewhere give the elastic "
+        "material of slow loading, solid.equilibrium, or of fast, solid.instantaneous"
+    )
 
 
 @frozen(kw_only=True)
@@ -78,6 +91,15 @@ class Material(Solid):
     def stack(self) -> Stack:
         """See `Solid.stack`."""
         return Stack(substrate=self)
+
+    @property
+    def relaxation(self) -> PronySeries | None:
+        """Relaxation modulus; None of an elastic material, which does not relax."""
+        return None
+
+    def at_rate(self, rate: float) -> Material:
+        """Elastic material of the modulus at a rate [1/s]: itself, whatever the rate."""
+        return self
 
 
 @frozen(kw_only=True)
@@ -203,8 +225,31 @@ class Stack(Solid):
 
     @property
     def young_moduli(self) -> tuple[float, ...]:
-        """Young's moduli [Pa], surface first."""
+        """Young's moduli [Pa], surface first.
+
+        Raises
+        ------
+        PlanError
+            If one of them depends on time.
+        """
+        for material in self.materials:
+            if material.relaxation is not None:
+                raise PlanError(needs_time(material))
         return tuple(m.young_modulus for m in self.materials)
+
+    @property
+    def relaxes(self) -> bool:
+        """Whether the modulus of any material depends on time."""
+        return any(material.relaxation is not None for material in self.materials)
+
+    def at_rate(self, rate: float) -> Stack:
+        """Elastic stack of the moduli at a rate [1/s]; see `Material.at_rate`."""
+        below = self.substrate
+        return evolve(
+            self,
+            layers=tuple(evolve(one, material=one.material.at_rate(rate)) for one in self.layers),
+            substrate=below.at_rate(rate) if isinstance(below, Material) else below,
+        )
 
     @property
     def poisson_ratios(self) -> tuple[float, ...]:

@@ -31,6 +31,7 @@ SHOWN_EXAMPLES = (
     "loading_history",
     "rough_coating",
     "rubbed_sphere",
+    "viscoelastic_sphere",
 )  # their figures, by the names of their files
 # (scene, command): figures by the name they have in the pages; with + beside each other, with /
 # one below the other.

@@ -119,6 +119,11 @@ ELSEWHERE = {
     ("SubsurfaceStress", "depths"),
     ("SubsurfaceStress", "coefficients"),
     *(("PlasticHistory", name) for name in ("pressures", "forces", "approaches", "steps")),
+    # See test_viscoelasticity.py.
+    *(
+        ("Viscoelasticity", name)
+        for name in ("times", "pressures", "forces", "approaches", "steps", "maps_at")
+    ),
     # See test_partial_slip_errors.py.
     *(
         ("PartialSlip", name)

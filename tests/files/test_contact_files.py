@@ -36,6 +36,14 @@ materials = st.builds(
     poisson_ratio=st.floats(-0.9, 0.5),
     hardness=st.none() | stresses,
 ) | st.sampled_from(["dlc", "ni-p"]).map(ck.load_material)
+materials |= st.builds(
+    ck.ViscoelasticMaterial,
+    name=names,
+    young_modulus=stresses,
+    poisson_ratio=st.floats(-0.9, 0.5),
+    fractions=st.just((0.5, 0.25)),
+    times=st.tuples(decades(-9.0, -1.0), decades(0.0, 9.0)),
+)
 layers = st.builds(ck.Layer, material=materials, thickness=lengths)
 stacks = st.builds(
     ck.Stack, layers=st.lists(layers, max_size=3).map(tuple), substrate=materials
@@ -119,6 +127,12 @@ EFFECTS = {
         ck.PlasticHistory,
         pressures=st.lists(stresses, max_size=3).map(tuple),
         approaches=st.lists(lengths, max_size=2).map(tuple),
+        steps=st.integers(1, 9),
+    ),
+    ck.Viscoelasticity: st.builds(
+        ck.Viscoelasticity,
+        times=st.lists(decades(-6.0, 6.0), min_size=1, max_size=3).map(sorted).map(tuple),
+        pressures=st.lists(stresses, max_size=2).map(tuple),
         steps=st.integers(1, 9),
     ),
     ck.FrictionTraction: st.builds(

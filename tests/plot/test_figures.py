@@ -24,11 +24,13 @@ OF_EFFECTS = {
     ck.SubsurfaceStress: (),
     ck.PartialSlip: (),
     ck.PlasticHistory: (HARD,),
+    ck.Viscoelasticity: (),
 }
 LISTED = {
     ck.SubsurfaceStress: ck.SubsurfaceStress(depths=(0.0, 1e-7, 2e-7, 4e-7)),
     ck.PartialSlip: ck.PartialSlip(coefficient=0.3, path=(ck.TangentialStep(ratio=0.5),)),
     ck.PlasticHistory: ck.PlasticHistory(pressures=(800e6,)),
+    ck.Viscoelasticity: ck.Viscoelasticity(times=(1.0, 3.0), pressures=(1e8,), steps=2),
 }
 
 
@@ -39,10 +41,19 @@ def _quiet():
         yield
 
 
+# Solids that effects need.
+SOLIDS = {
+    ck.Viscoelasticity: ck.ViscoelasticMaterial(
+        young_modulus=210e9, fractions=(0.5,), times=(1.0,), poisson_ratio=0.3
+    ),
+}
+
+
 def contact(*effects, scale=1.0):
     wave = np.cos(2.0 * np.pi * np.arange(16) / 16)
     heights = 5e-9 * scale * wave * wave[:, None]
-    body = ck.Body(surface=ck.Heights(heights=heights, pixel_size=1e-7 * scale), solid=STEEL)
+    solid = next((SOLIDS[type(one)] for one in effects if type(one) in SOLIDS), STEEL)
+    body = ck.Body(surface=ck.Heights(heights=heights, pixel_size=1e-7 * scale), solid=solid)
     scene = ck.ContactScene(
         interface=ck.Interface(lower=body, upper=ck.Flat()),
         window=ck.Window(periodic=True),

@@ -97,6 +97,7 @@ SCENE_OBJECTS = [
     ck.Stack,
     ck.TangentialStep,
     ck.Vibration,
+    ck.ViscoelasticMaterial,
     ck.Wave,
     ck.Difference,
     ck.Disc,

@@ -63,6 +63,10 @@ OWNED = {
     ck.HardnessLimit(rule="material"): set(),
     ck.HardnessLimit(rule=ck.ConstantHardness(hardness=1e9)): set(),
     ck.PlasticHistory(pressures=(2e6, 0.0), steps=2): {"elasticity.hardness_rules.*"},
+    ck.Viscoelasticity(times=(1.0, 2.0), steps=1): {
+        "elasticity.prony.*",
+        "elasticity.creep_symbol.*",
+    },
     ck.FrictionTraction(coefficient=0.2): set(),
     ck.FrictionCoupling(): {
         "contact.slip.coupling.coupling_of",
@@ -132,6 +136,8 @@ SOLVER = {"contact.solver.*"}
 WATER = ck.Liquid(name="water", viscosity=1e-3, surface_tension=0.07)
 HARD = ck.Material(young_modulus=3e9, poisson_ratio=0.2, hardness=1e8)
 SOFT = ck.Material(young_modulus=1e9, poisson_ratio=0.3, hardness=5e7)
+GEL = ck.ViscoelasticMaterial(young_modulus=1e9, fractions=0.5, times=1.0, poisson_ratio=0.3)
+GLUED = ck.Stack(layers=(ck.Layer(material=HARD, thickness=5e-9),), substrate=GEL)
 LAYERED = ck.Stack(layers=(ck.Layer(material=HARD, thickness=5e-9),), substrate=SOFT)
 SURFACES = {
     "heights": ck.Heights(
@@ -147,10 +153,12 @@ SURFACES = {
 
 def press(effects, edges, shape="heights"):
     is_layered = any(isinstance(effect, ck.LayeredHalfSpace) for effect in effects)
+    relaxes = any(isinstance(effect, ck.Viscoelasticity) for effect in effects)
+    layered, bare = (GLUED, GEL) if relaxes else (LAYERED, SOFT)
     known = shape == "heights"
     scene = ck.ContactScene(
         interface=ck.Interface(
-            lower=ck.Body(solid=LAYERED if is_layered else SOFT),
+            lower=ck.Body(solid=layered if is_layered else bare),
             upper=ck.Body(surface=SURFACES[shape]),
             meniscus=ck.Meniscus(liquid=WATER),
         ),
@@ -162,8 +170,10 @@ def press(effects, edges, shape="heights"):
 
 
 def is_refused(effects):
-    """Whether two laws of friction are listed, or an attraction with a film."""
+    """Whether two laws of friction are listed, an attraction with a film, or creep with others."""
     kinds = {type(effect) for effect in effects if isinstance(effect, ContactEffect)}
+    if ck.Viscoelasticity in kinds and not all(kind.takes_relaxation for kind in kinds):
+        return True
     if PartialSlip in kinds and {FrictionTraction, SubsurfaceStress} & kinds:
         return True  # two laws of friction; a stress without the traction of the first
     return Adhesion in kinds and not all(kind.takes_tension for kind in kinds)
@@ -236,6 +246,11 @@ HEARTS = [
         (ck.PartialSlip(coefficient=0.2, path=(ck.TangentialStep(ratio=0.5),)),),
         "along x",
         "elasticity.tangential_one_axis.one_axis_symbol",
+    ),
+    (
+        (ck.Viscoelasticity(times=1.0),),
+        "periodic",
+        "elasticity.creep_symbol.common_times",
     ),
     ((ck.SubsurfaceStress(),), "isolated", "elasticity.stress.maxima.plane_maxima"),
     ((ck.Adhesion(law=DUGDALE),), "isolated", "adhesion.attraction.dugdale_tension"),

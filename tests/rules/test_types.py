@@ -30,6 +30,7 @@ REVEALED = {
     "pressed.contact_area": "float",
     "pressed.of(ck.HardnessLimit)": "PlasticPart",
     "pressed.of(ck.PlasticHistory)": "PlasticHistoryPart",
+    "pressed.of(ck.Viscoelasticity)": "ViscoelasticityPart",
     "pressed.of(ck.SubsurfaceStress)": "StressPart",
     "pressed.of(ck.FilmMeniscus)": "FilmPart",
     "pressed.of(ck.IslandBridges)": "IslandPart",

@@ -105,6 +105,7 @@ class Adhesion(Attraction[AdhesionPart]):
     until they do not.
     """
 
+    takes_relaxation: ClassVar[bool] = True
     name: ClassVar[str] = "adhesion"
     summary: ClassVar[str] = "attraction of the surfaces across their gap"
     records: ClassVar[tuple[type, ...]] = (AdhesionPart,)

@@ -255,6 +255,8 @@ class ContactEffect(Effect, Generic[Part]):
     """Whether it is right with pixels that carry no load and whose gap is not known."""
     takes_free_sheets: ClassVar[bool] = True
     """Whether it is right on an isolated sheet that slides on its base."""
+    takes_relaxation: ClassVar[bool] = False
+    """Whether it is right on bodies whose moduli depend on time."""
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """Name what this effect needs and `scene` does not give, with units."""
@@ -345,6 +347,9 @@ class LoadTerm(ContactEffect[Part]):
 @frozen(kw_only=True)
 class LoadHistory(ContactEffect[Part]):
     """Loads that the contact has carried before that of the scene; none or one."""
+
+    has_gradient: ClassVar[bool] = False
+    """Whether the contact is that of its last load alone while loads rise."""
 
     @abc.abstractmethod
     def loadings(self) -> tuple[ContactLoading, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
@@ -39,6 +40,7 @@ class HalfSpace(Compliance):
     """
 
     takes_holes: ClassVar[bool] = True
+    takes_relaxation: ClassVar[bool] = True
     name: ClassVar[str] = "half-space"
     summary: ClassVar[str] = "homogeneous elastic half-spaces"
 
@@ -72,6 +74,7 @@ class LayeredHalfSpace(Compliance):
     """
 
     takes_holes: ClassVar[bool] = True
+    takes_relaxation: ClassVar[bool] = True
     name: ClassVar[str] = "layered-half-space"
     summary: ClassVar[str] = "bonded elastic layers on half-spaces or rigid bases"
 
@@ -125,8 +128,11 @@ class LayeredHalfSpace(Compliance):
 
 
 def contact_modulus(scene: ContactScene) -> float:
-    """Contact modulus E* [Pa] of the topmost materials of both bodies."""
-    tops = [stack.materials[0] for stack in scene.interface.stacks]
+    """Contact modulus E* [Pa] of the topmost materials of both bodies; instantaneous if it relaxes.
+
+    For ranges of validity and dimensionless numbers, not for the contact itself.
+    """
+    tops = [stack.materials[0].at_rate(math.inf) for stack in scene.interface.stacks]
     return 1.0 / sum(1.0 / material.plane_strain_modulus for material in tops)
 
 

@@ -177,7 +177,7 @@ def _unknowns_of(plan: ContactPlan) -> tuple[Unknown, ...]:
     interface, term = plan.prepared, plan.scene.effect(DisplacementTerm)
     view = InterfaceView(
         plan.grid,
-        interface.solver.self_influence,
+        interface.self_influence,
         interface.displacements,
         plan.hardness,
         plan.coupling,
@@ -220,7 +220,7 @@ def _contact_of(
     if hardness is not None:
         bounded = BoundedContact(hardness, np.maximum(-found.distance, 0.0))
     if held.tension is not None:
-        touching, own = found.touching, plan.prepared.solver.self_influence
+        touching, own = found.touching, plan.prepared.self_influence
         attracted = AttractedContact(held.tension, touching, own, n_contacts)
         for one in (held.tension, touching):
             one.flags.writeable = False

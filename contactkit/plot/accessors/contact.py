@@ -13,7 +13,7 @@ from ...contact.plan import ContactPlan
 from ...contact.result import ContactResult
 from ...errors import PlanError
 from .. import contact as of_contact
-from .. import maps, plastic_history, slip, stress, view3d
+from .. import maps, plastic_history, slip, stress, view3d, viscoelastic
 from ..explore import Explorer, explore
 from ..roughness import heights_map
 from ..style import Axes, figure
@@ -129,6 +129,14 @@ class ContactFigures(Figures[ContactResult]):
     def residual_depth(self, *, ax: Axes | None = None) -> Axes:
         """Draw the map of the residual depth."""
         return plastic_history.residual_depth(self._owner, ax)
+
+    def time_curves(self, *, ax: Axes | None = None) -> Axes:
+        """Draw load, approach and contact area of a viscoelastic contact over time."""
+        return viscoelastic.time_curves(self._owner, ax)
+
+    def load_loop(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the load of a viscoelastic contact over its approach."""
+        return viscoelastic.load_loop(self._owner, ax)
 
 
 @registered_figures.register(ContactPlan)

@@ -66,9 +66,13 @@ def ball(*effects: Any) -> ck.ContactScene:
     )
 
 
+POLYMER = ck.ViscoelasticMaterial(
+    name="polymer", young_modulus=1e9, fractions=0.9, times=1.0, poisson_ratio=0.4
+)
 HALF, FRICTION = ck.HalfSpace(), ck.FrictionTraction(coefficient=0.3)
 ATTRACTION = ck.Adhesion(law=ck.ExponentialAttraction(work_of_adhesion=0.05, range=5e-9))
 SLIP = ck.PartialSlip(coefficient=0.3, path=(ck.TangentialStep(ratio=0.6),))
+CREEP = ck.Viscoelasticity(times=(0.1, 1.0, 10.0), steps=2)
 HISTORY = ck.PlasticHistory(pressures=(4e8,), steps=4)
 
 CONTACTS: Mapping[type, Entry] = {
@@ -110,6 +114,15 @@ CONTACTS: Mapping[type, Entry] = {
         contact(HALF, ck.HardnessLimit(rule=ck.ConstantHardness(hardness=7.5e9)), HISTORY),
         ck.PlasticHistory,
         accuracy=MAP,
+    ),
+    ck.Viscoelasticity: Entry(
+        r"\hat u(t) = \int_0^t \hat C(\alpha, t - t')\, \dot{\hat p}(t')\, dt', \qquad "
+        r"\hat C(\alpha, s) = C(\alpha; E_j(s))",
+        "a rough flat on a polymer, 2 um wide, 256 x 256 pixels, 1 MPa held for 10 s",
+        contact(HALF, CREEP, solid=POLYMER, pressure=1e6),
+        contact(HALF, solid=POLYMER.instantaneous, pressure=1e6),
+        MAP,
+        "the instantaneous modulus",
     ),
     ck.FrictionTraction: _entry(
         r"q = \mu p",
