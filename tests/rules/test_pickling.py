@@ -170,6 +170,7 @@ def fitted():
 
 
 MADE = {
+    "works to cite": lambda: ck.cite(film()),
     "separation plan": lambda: ck.plan(film()),
     "sliding plan": lambda: ck.plan(sliding()),
     # What is prepared is not pickled, nor the memory that only it can state.
