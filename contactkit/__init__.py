@@ -96,6 +96,7 @@ if TYPE_CHECKING:
     from .files.curves import SavedCurve, read_curve
     from .files.results import load_result, save_result
     from .files.scenes import load_liquid, load_material, load_scene, save_scene
+    from .files.surfaces import read_surfaces, surface_from, to_topography, write_surfaces
     from .fitting.compare import compare_fits
     from .fitting.data import MeasuredBound, MeasuredCurve
     from .fitting.fit import fit
@@ -329,6 +330,7 @@ _HOMES = {
     "pull_off_curve": "analyses.pull_off",
     "modulus_curve": "analyses.deforming.modulus",
     "pull_off_over_speed": "analyses.deforming.pull_off_speed",
+    "read_surfaces": "files.surfaces",
     "release_over": "analyses.deforming.release",
     "stiction_table": "analyses.deforming.stiction",
     "read_curve": "files.curves",
@@ -346,6 +348,9 @@ _HOMES = {
     "stick_slip": "analyses.stick_slip",
     "stream_study": "studies.stream",
     "study": "studies.study",
+    "surface_from": "files.surfaces",
+    "to_topography": "files.surfaces",
+    "write_surfaces": "files.surfaces",
 }
 
 __all__ = [
@@ -499,6 +504,7 @@ __all__ = [
     "read_fit",
     "read_force_curve",
     "read_measured_curve",
+    "read_surfaces",
     "register",
     "release_over",
     "save_result",
@@ -512,6 +518,9 @@ __all__ = [
     "stiction_table",
     "stream_study",
     "study",
+    "surface_from",
+    "to_topography",
+    "write_surfaces",
 ]
 
 __getattr__ = lazy_names(__name__, _HOMES)

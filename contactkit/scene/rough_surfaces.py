@@ -211,6 +211,10 @@ class Measured(Surface):
         """See `Surface.heights_on`; reads the file."""
         return _FILES.of(self).heights_on(grid)
 
+    def as_heights(self) -> Heights:
+        """Return the map as an array, without the trend, with its holes; reads the file."""
+        return _FILES.of(self)
+
 
 def _read(surface: Measured) -> Heights:
     import numpy as np
