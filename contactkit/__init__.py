@@ -101,8 +101,9 @@ if TYPE_CHECKING:
     from .fitting.data import MeasuredBound, MeasuredCurve
     from .fitting.fit import fit
     from .fitting.fit_file import read_fit
+    from .fitting.force_curves import read_force_curve, write_force_curve
     from .fitting.parameters import Prior
-    from .fitting.readers import read_force_curve, read_measured_curve
+    from .fitting.readers import read_measured_curve
     from .fitting.result import Fit
     from .kinds import EFFECTS, KINDS, register
     from .liquids.liquid import Liquid
@@ -335,7 +336,7 @@ _HOMES = {
     "stiction_table": "analyses.deforming.stiction",
     "read_curve": "files.curves",
     "read_fit": "fitting.fit_file",
-    "read_force_curve": "fitting.readers",
+    "read_force_curve": "fitting.force_curves",
     "read_measured_curve": "fitting.readers",
     "register": "kinds",
     "save_result": "files.results",
@@ -350,6 +351,7 @@ _HOMES = {
     "study": "studies.study",
     "surface_from": "files.surfaces",
     "to_topography": "files.surfaces",
+    "write_force_curve": "fitting.force_curves",
     "write_surfaces": "files.surfaces",
 }
 
@@ -520,6 +522,7 @@ __all__ = [
     "study",
     "surface_from",
     "to_topography",
+    "write_force_curve",
     "write_surfaces",
 ]
 
