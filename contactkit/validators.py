@@ -83,6 +83,20 @@ class, by which all of its objects are equal.
 """
 
 
+_OPTIONAL_TEXT = ("str | None", str | None)
+_TEXT = ("str", str, *_OPTIONAL_TEXT)  # types of a field that takes a text and no number
+
+
+def _check_text(owner: str, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse what is no text where a field takes no other."""
+    is_left_out = value is None and attribute.type in _OPTIONAL_TEXT
+    if attribute.type not in _TEXT or is_left_out:
+        return
+    if attribute.converter is None and "unit" not in attribute.metadata:
+        cure = "put it in quotes" if isinstance(value, int | float) else ""
+        raise DescriptionError(f"{owner}.{attribute.name}", value, "be a text", hint=cure)
+
+
 class Described:
     """Base class of scene objects: quantities may be texts, unknown arguments are refused.
 
@@ -108,7 +122,9 @@ class Described:
             if args and all(a.kw_only for a in known.values()):
                 first = next(iter(known), "field")
                 raise TypeError(f"{cls.__name__}() takes its fields by name: {first}=...")
-            for key in given:
+            for key, value in given.items():
+                if key in known and not isinstance(value, str):
+                    _check_text(cls.__name__, known[key], value)
                 if key not in known:
                     cure = nearest(key, [k for k, a in known.items() if a.name[0] != "_"])
                     raise TypeError(

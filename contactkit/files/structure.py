@@ -391,8 +391,14 @@ def _carrier(value: Any, _: Any) -> Material | RigidBase:
     return _material(value, Material)
 
 
+def _as_text(value: Any, _: Any) -> Any:
+    """A text; what is none is refused by its field, where cattrs would write it as one."""
+    return value
+
+
 _CONVERTER = cattrs.Converter()
 _CONVERTER.register_structure_hook(bool, _bool)
+_CONVERTER.register_structure_hook(str, _as_text)
 _CONVERTER.register_structure_hook_factory(attrs.has, _attrs_class)
 _CONVERTER.register_structure_hook_factory(_is_base, _of_family)
 _CONVERTER.register_structure_hook_factory(_is_choice, _choice)

@@ -95,7 +95,7 @@ def read_force_curve(
     if at.size == 0:
         raise DescriptionError("segment", segment, f"have readings in {Path(path).name}")
     spring = _spring(one, position, str(path))
-    if position == "tip":
+    if position == "tip" and spring is not None:
         at = at + force / spring
     elif spring is not None and "stiffness" not in more:
         more["stiffness"] = spring

@@ -234,7 +234,7 @@ def _yaml(content: bytes, where: str) -> Any:
         require("yaml", f"{where}, in YAML,")
     import yaml
 
-    class Loader(yaml.SafeLoader):
+    class Loader(yaml.SafeLoader):  # type: ignore[misc]  # which has no types
         def compose_node(self, parent: Any, index: Any) -> Any:
             if self.check_event(yaml.AliasEvent):
                 raise yaml.YAMLError("it has aliases")

@@ -45,7 +45,8 @@ def netcdf_of(height_map: HeightMap) -> bytes:
     (nx, ny), (dy, dx) = heights.shape, height_map.pixel_size
     own = {"pixel_size": [dy, dx], "is_periodic": height_map.is_periodic}
     content = io.BytesIO()
-    with netcdf_file(content, "w", version=2) as file:
+    file: Any = netcdf_file(content, "w", version=2)
+    with file:
         file.json = json.dumps({"name": height_map.source, _OWN: own})
         for name, n, pixel in (("x", nx, dx), ("y", ny, dy)):
             file.createDimension(name, n)
@@ -138,7 +139,8 @@ def _exact(found: HeightMap, info: Any) -> HeightMap:
     own = info.get(_OWN) if isinstance(info, dict) else None
     if not isinstance(own, dict):
         return found
-    pixel, flag = own.get("pixel_size"), own.get("is_periodic")
+    pixel: Any = own.get("pixel_size")
+    flag = own.get("is_periodic")
     same = (
         isinstance(pixel, list)
         and len(pixel) == 2
