@@ -49,8 +49,8 @@ _LONGEST = 0.25
 # energies.
 _CLOSED = 1e-6
 # Bound of the error of an extreme by the approaches that is pointed out, over the largest tension.
-# For a soft sphere it is 3 to 70 times the error: 6 % where 13 approaches miss 2 %, 4 % where 17 miss
-# 0.1 %.
+# For a soft sphere it is 3 to 70 times the error: 6 % where 13 approaches miss 2 %, 4 % where 17
+# miss 0.1 %.
 _MOST_MISSED = 0.05
 _COLUMNS = (
     ("approach", "m"),
