@@ -25,6 +25,7 @@ __all__ = [
     "as_tuple",
     "as_number",
     "as_whole",
+    "check_text",
     "choice",
     "count",
     "file_name",
@@ -87,7 +88,7 @@ _OPTIONAL_TEXT = ("str | None", str | None)
 _TEXT = ("str", str, *_OPTIONAL_TEXT)  # types of a field that takes a text and no number
 
 
-def _check_text(owner: str, attribute: Attribute[Any], value: Any) -> None:
+def check_text(owner: str, attribute: Attribute[Any], value: Any) -> None:
     """Refuse what is no text where a field takes no other."""
     is_left_out = value is None and attribute.type in _OPTIONAL_TEXT
     if attribute.type not in _TEXT or is_left_out:
@@ -124,7 +125,7 @@ class Described:
                 raise TypeError(f"{cls.__name__}() takes its fields by name: {first}=...")
             for key, value in given.items():
                 if key in known and not isinstance(value, str):
-                    _check_text(cls.__name__, known[key], value)
+                    check_text(cls.__name__, known[key], value)
                 if key not in known:
                     cure = nearest(key, [k for k, a in known.items() if a.name[0] != "_"])
                     raise TypeError(
