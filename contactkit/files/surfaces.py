@@ -18,7 +18,7 @@ from ..roughness.containers import LineScans, read_container, write_container
 from ..roughness.height_maps import HeightMap
 from ..roughness.map_fields import length_unit
 from ..scene.rough_surfaces import Heights, Measured
-from ..scene.topography import as_surface
+from ..scene.topography import Topography, as_surface
 from .scenes import write_whole
 
 if TYPE_CHECKING:
@@ -167,7 +167,9 @@ def surface_from(result: ContactResult, of: str = "deformed") -> Heights:
     return Heights(heights=heights, pixel_size=grid.pixel_size, is_periodic=grid.periodic)
 
 
-def to_topography(surface: Any, *, unit: str = "m", info: Mapping[str, Any] | None = None) -> Any:
+def to_topography(
+    surface: Any, *, unit: str = "m", info: Mapping[str, Any] | None = None
+) -> Topography:
     """Return a surface as a topography of SurfaceTopography (extra ``maps``).
 
     Parameters
@@ -192,12 +194,12 @@ def to_topography(surface: Any, *, unit: str = "m", info: Mapping[str, Any] | No
         If the surface has no heights of its own, or the unit is no unit of length.
     """
     require("SurfaceTopography", "a topography")
-    from SurfaceTopography import Topography
+    import SurfaceTopography
 
     one = _height_map("surface", surface)
     (ny, nx), (dy, dx) = one.heights.shape, one.pixel_size
     heights = np.ma.masked_invalid(one.heights.T)
-    found = Topography(
+    found: Any = SurfaceTopography.Topography(
         heights if np.ma.is_masked(heights) else heights.data.copy(),
         physical_sizes=(nx * dx, ny * dy),
         unit="m",
@@ -205,7 +207,8 @@ def to_topography(surface: Any, *, unit: str = "m", info: Mapping[str, Any] | No
         info=dict(info or {}),
     )
     length_unit(unit, Path("topography"))  # refuses what is no unit of length
-    return found if unit == "m" else found.to_unit(unit)
+    made: Topography = found if unit == "m" else found.to_unit(unit)
+    return made
 
 
 def _surface(one: HeightMap) -> Heights:

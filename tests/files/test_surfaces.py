@@ -110,7 +110,7 @@ def test_maps_of_a_contact_are_surfaces(tmp_path):
     np.testing.assert_array_equal(ck.read_surfaces(file)["gap"].heights, result.gap)
 
 
-def test_two_topographies_of_one_name_are_told_apart(container, tmp_path):
+def test_two_topographies_of_one_name_are_both_kept(container, tmp_path):
     index = changed(container, lambda found: found["surfaces"][0]["topographies"][1].update(
         name="all"))  # fmt: skip
     assert list(ck.read_surfaces(index)) == ["all", "all (2)"]
