@@ -311,7 +311,7 @@ def _with_others(
 
 def _refused(kind: type, value: Mapping[str, Any]) -> Iterator[DescriptionError]:
     """Refusals of single fields of a table, each by the validator of its class."""
-    owner = object.__new__(kind)  # for its name: it has no fields
+    owner: Any = object.__new__(kind)  # for its name: it has no fields
     for one in attrs.fields(kind):
         if one.alias not in value:
             continue
