@@ -97,12 +97,14 @@ if TYPE_CHECKING:
     from .files.curves import SavedCurve, read_curve
     from .files.results import load_result, save_result
     from .files.scenes import load_liquid, load_material, load_scene, save_scene
+    from .files.surfaces import read_surfaces, surface_from, to_topography, write_surfaces
     from .fitting.compare import compare_fits
     from .fitting.data import MeasuredBound, MeasuredCurve
     from .fitting.fit import fit
     from .fitting.fit_file import read_fit
+    from .fitting.force_curves import read_force_curve, write_force_curve
     from .fitting.parameters import Prior
-    from .fitting.readers import read_force_curve, read_measured_curve
+    from .fitting.readers import read_measured_curve
     from .fitting.result import Fit
     from .kinds import EFFECTS, KINDS, register
     from .liquids.liquid import Liquid
@@ -333,11 +335,12 @@ _HOMES = {
     "pull_off_curve": "analyses.pull_off",
     "modulus_curve": "analyses.deforming.modulus",
     "pull_off_over_speed": "analyses.deforming.pull_off_speed",
+    "read_surfaces": "files.surfaces",
     "release_over": "analyses.deforming.release",
     "stiction_table": "analyses.deforming.stiction",
     "read_curve": "files.curves",
     "read_fit": "fitting.fit_file",
-    "read_force_curve": "fitting.readers",
+    "read_force_curve": "fitting.force_curves",
     "read_measured_curve": "fitting.readers",
     "register": "kinds",
     "save_result": "files.results",
@@ -350,6 +353,10 @@ _HOMES = {
     "stick_slip": "analyses.stick_slip",
     "stream_study": "studies.stream",
     "study": "studies.study",
+    "surface_from": "files.surfaces",
+    "to_topography": "files.surfaces",
+    "write_force_curve": "fitting.force_curves",
+    "write_surfaces": "files.surfaces",
 }
 
 __all__ = [
@@ -505,6 +512,7 @@ __all__ = [
     "read_fit",
     "read_force_curve",
     "read_measured_curve",
+    "read_surfaces",
     "register",
     "release_over",
     "save_result",
@@ -518,6 +526,10 @@ __all__ = [
     "stiction_table",
     "stream_study",
     "study",
+    "surface_from",
+    "to_topography",
+    "write_force_curve",
+    "write_surfaces",
 ]
 
 __getattr__ = lazy_names(__name__, _HOMES)

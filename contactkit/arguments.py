@@ -93,6 +93,20 @@ def listed(name: str, given: ArrayLike | str, unit: str) -> Array:
     return found
 
 
+def positive_values(name: str, given: ArrayLike | str, unit: str) -> Array:
+    """As `listed`; refuses what is not positive.
+
+    Raises
+    ------
+    DescriptionError
+        If there is no value, more than one axis, or one that is not positive and finite.
+    """
+    found = listed(name, given, unit)
+    if not (found > 0.0).all():
+        raise DescriptionError(name, given, "be positive and finite numbers", unit=unit)
+    return found
+
+
 positive = _checked(lambda x: (x > 0.0) & np.isfinite(x), "be positive and finite")
 """As `quantity`; refuses what is not positive and finite."""
 

@@ -25,6 +25,7 @@ _EXTRAS = {
     "pythonfmu": "fmu",
     "pyvista": "view3d",
     "xarray": "data",
+    "yaml": "maps",
     "ziglang": "native",
 }
 

@@ -134,9 +134,13 @@ def readable_unit(size: float, unit: str) -> tuple[float, str]:
     ((1e-09, 'nm'), (1e-12, 'um2'), (0.001, 'g'))
     >>> readable_unit(0.0, "Pa"), readable_unit(0.03, "N/m"), readable_unit(5e9, "Pa")
     ((1.0, 'Pa'), (0.001, 'mN/m'), (1000000000.0, 'GPa'))
+    >>> readable_unit(5e8, "1/m"), readable_unit(3e12, "1/m2"), readable_unit(0.2, "1/m")
+    ((1000000.0, '1/um'), (1000000000000.0, '1/um2'), (1.0, '1/m'))
     """
     if unit == "rad":
         return deg, "deg"
+    if inverse := re.fullmatch(r"1/m([23]?)", unit):  # per prefixed length, as of a wave or a spot
+        return _per_length(size, inverse[1])
     match = re.fullmatch(r"(kg|[A-Za-z]+)([23]?)(.*)", unit)
     if match is None or match[1] == "K" or not (size and math.isfinite(size)):
         return 1.0, unit
@@ -151,6 +155,16 @@ def readable_unit(size: float, unit: str) -> tuple[float, str]:
     if abs(size) < 1e-3 * factor:  # a power of ten of the plain unit reads better
         return 1.0, unit
     return factor, f"{letter}{symbol}{match[2]}{match[3]}"
+
+
+def _per_length(size: float, power: str) -> tuple[float, str]:
+    """Factor and name of the smallest unit of length that a number per length reads best with."""
+    found = 1.0, f"1/m{power}"
+    for prefix in (1e-3, 1e-6, 1e-9, 1e-12):
+        factor = round(1.0 / prefix) ** int(power or 1)
+        if math.isfinite(size) and abs(size) >= 0.9999999 * factor:
+            found = float(factor), f"1/{_READABLE[prefix]}m{power}"
+    return found
 
 
 def quantity_text(value: float, unit: str) -> str:

@@ -9,12 +9,13 @@ import re
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from attrs import Attribute, fields
+from attrs import Attribute, cmp_using, fields
 
 from .errors import DescriptionError, nearest
 from .units import parse_quantity
 
 __all__ = [
+    "SAME_NUMBERS",
     "LARGEST",
     "LARGEST_FRICTION",
     "Described",
@@ -24,6 +25,7 @@ __all__ = [
     "as_tuple",
     "as_number",
     "as_whole",
+    "check_text",
     "choice",
     "count",
     "file_name",
@@ -68,6 +70,34 @@ def _reader(converter: Callable[[Any], Any] | None, unit: str, name: str) -> Cal
     return lambda value: converter(_read(value, unit, name))
 
 
+def _same(one: Any, other: Any) -> bool:
+    import numpy as np
+
+    return one is other or bool(np.array_equal(one, other))
+
+
+SAME_NUMBERS = cmp_using(eq=_same)
+"""Equality of a field that holds an array, ``field(eq=SAME_NUMBERS, hash=False)``.
+
+Without it a class with an array would have to leave out its equality, and then has that of its base
+class, by which all of its objects are equal.
+"""
+
+
+_OPTIONAL_TEXT = ("str | None", str | None)
+_TEXT = ("str", str, *_OPTIONAL_TEXT)  # types of a field that takes a text and no number
+
+
+def check_text(owner: str, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse what is no text where a field takes no other."""
+    is_left_out = value is None and attribute.type in _OPTIONAL_TEXT
+    if attribute.type not in _TEXT or is_left_out:
+        return
+    if attribute.converter is None and "unit" not in attribute.metadata:
+        cure = "put it in quotes" if isinstance(value, int | float) else ""
+        raise DescriptionError(f"{owner}.{attribute.name}", value, "be a text", hint=cure)
+
+
 class Described:
     """Base class of scene objects: quantities may be texts, unknown arguments are refused.
 
@@ -93,7 +123,9 @@ class Described:
             if args and all(a.kw_only for a in known.values()):
                 first = next(iter(known), "field")
                 raise TypeError(f"{cls.__name__}() takes its fields by name: {first}=...")
-            for key in given:
+            for key, value in given.items():
+                if key in known and not isinstance(value, str):
+                    check_text(cls.__name__, known[key], value)
                 if key not in known:
                     cure = nearest(key, [k for k, a in known.items() if a.name[0] != "_"])
                     raise TypeError(

@@ -48,6 +48,10 @@ _LONGEST = 0.25
 # Change of energy over the adhesive energy, of a loop that is closed: round-off of sums of
 # energies.
 _CLOSED = 1e-6
+# Bound of the error of an extreme by the approaches that is pointed out, over the largest tension.
+# For a soft sphere it is 3 to 70 times the error: 6 % where 13 approaches miss 2 %, 4 % where 17
+# miss 0.1 %.
+_MOST_MISSED = 0.05
 _COLUMNS = (
     ("approach", "m"),
     ("load", "N"),
@@ -127,7 +131,8 @@ class PullOffCurve(Curve):
         What was solved, without its preparation.
     validity : tuple of ValidityNumber
         The worst of each number over all states, but for the pixels across a contact spot; and the
-        tension at the end of the separation over the pull-off force [-].
+        errors of both extremes by the approaches and the tension at the end of the separation, over
+        the pull-off force [-].
     """
 
     axis: ClassVar[str] = "state"
@@ -287,7 +292,8 @@ def pull_off_curve(
     to a thousandth of load and energy. Under load control, as with a soft spring or a
     negative `Pressing`, the bodies pull off at `PullOffCurve.pull_off_force` and snap in before the
     jump of the approach.
-    The extremes are those of the states: let the approaches be dense around them.
+    The extremes are those of the states; `validity` estimates what they miss, and warns of more
+    than 5 %: let the approaches be dense there.
 
     Examples
     --------
@@ -330,11 +336,10 @@ def pull_off_curve(
         run, run(levels[0], None), levels[1:], "approach", n_refinements, longest
     )
     down, jumps_down = _followed(run, up[-1], levels[-2::-1], "separation", n_refinements, longest)
-    found = (*worst.values(), _left(down))
+    jumps = (*jumps_up, *jumps_down)
+    found = (*worst.values(), *_between(up, down, jumps), _left(down))
     warn(found)
-    return PullOffCurve(
-        _branch(up), _branch(down), (*jumps_up, *jumps_down), plan.without_preparation(), found
-    )
+    return PullOffCurve(_branch(up), _branch(down), jumps, plan.without_preparation(), found)
 
 
 def _checked(approaches: Sequence[float | str] | Floats) -> list[float]:
@@ -381,6 +386,62 @@ def _left(separating: Sequence[_State]) -> ValidityNumber:
         if pull_off > 0.0
         else "nothing pulls",
     )
+
+
+def _between(
+    up: Sequence[_State], down: Sequence[_State], jumps: Sequence[Jump]
+) -> tuple[ValidityNumber, ...]:
+    """Whether the approaches are dense enough about the extremes of both branches."""
+    deepest = -min(one.load for one in (*up, *down))
+    return tuple(
+        ValidityNumber(
+            name=f"error of the {name} by the approaches",
+            value=_missed(states, {one.before for one in jumps if one.branch == branch}) / deepest
+            if deepest > 0.0
+            else None,
+            high=_MOST_MISSED,
+            detail="at most, by the states beside it, over the largest tension; above, give more "
+            "approaches there"
+            if deepest > 0.0
+            else "nothing pulls",
+            source="straight lines by the states beside, of a convex load",
+        )
+        for name, branch, states in (
+            ("pull-off force", "separation", down),
+            ("pull-on force", "approach", up),
+        )
+    )
+
+
+def _missed(states: Sequence[_State], before_jumps: set[float]) -> float:
+    """Bound of how far the load goes below its least state, if it is convex about that [N].
+
+    Between two states a convex load lies above the straight lines by the two states before them and
+    by the two after; where those meet is the least that it may reach. Across a jump and beyond an
+    end nothing is known: there it may go on as between the last two states.
+    """
+    x, p = [one.approach for one in states], [one.load for one in states]
+    i = min(range(len(states)), key=p.__getitem__)
+    cuts = [k for k, one in enumerate(states) if one.approach in before_jumps]
+    first = max((k + 1 for k in cuts if k < i), default=0)
+    last = min((k for k in cuts if k >= i), default=len(states) - 1)
+    if first == last:
+        return abs(p[i])  # nothing beside it says how the load goes on
+    return max(_below(x, p, k, first, last) for k in (i - 1, i) if first <= k < last)
+
+
+def _below(x: list[float], p: list[float], k: int, first: int, last: int) -> float:
+    """How far lines by the states beside an interval meet below its lower end [N]."""
+    length = x[k + 1] - x[k]
+    before = (p[k] - p[k - 1]) / (x[k] - x[k - 1]) if k > first else None
+    after = (p[k + 2] - p[k + 1]) / (x[k + 2] - x[k + 1]) if k + 1 < last else None
+    least = min(p[k], p[k + 1])
+    if before is None or after is None:
+        return abs(p[k + 1] - p[k])
+    if before * after >= 0.0 or before == after:  # no minimum inside
+        return 0.0
+    at = (p[k + 1] - p[k] - after * length) / (before - after)  # from x[k]
+    return max(0.0, least - (p[k] + before * at))
 
 
 def _loss(a: _State, b: _State) -> float:

@@ -7,7 +7,7 @@ settings     Values that the command line sets over those of a scene.
 listing      Lists of scenes, liquids, materials and effects.
 templates    Commented scene files to begin with.
 output       Output folders: what contactkit wrote there, and for which scene.
-cite         What to cite for a scene, a result file or an output folder.
+cite         Works to cite for a scene, a result file or an output folder.
 report_page  One page of HTML about a result: figures, numbers, validity, plan, sources.
 run          Running a scene of any kind: its plan and result in words, files of numbers, figures.
 study        Running the study of a scene file: a table, files with all columns, and a figure.

@@ -1,4 +1,4 @@
-"""What to cite for a scene, a result file or an output folder."""
+"""Works to cite for a scene, a result file or an output folder."""
 
 from __future__ import annotations
 

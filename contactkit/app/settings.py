@@ -12,7 +12,7 @@ from attrs import evolve
 from ..errors import DescriptionError
 from ..files.structure import FileError
 from ..reading.texts import check_keys, check_plain
-from ..studies.paths import changed, check_apart, paths_of, read_value
+from ..studies.paths import changed, check_apart, paths_of, read_value, takes_text
 
 __all__ = ["assignments", "known_paths", "with_settings"]
 
@@ -80,8 +80,11 @@ def with_settings(opened: S, given: Sequence[str]) -> S:
     described: Any = opened
     scene, accuracy = described.scene, getattr(described, "accuracy", None)
     values = {}
+    raw = {path.strip(): text.strip() for path, _, text in (one.partition("=") for one in given)}
     for path, value in assignments(given).items():
         with _naming_option([path]):
+            if isinstance(value, int | float) and takes_text(scene, accuracy, path, _OPTION):
+                value = raw[path]  # a name of digits, which needs no quotes here
             values[path] = read_value(scene, accuracy, path, value, _OPTION)
     with _naming_option(values):
         made = changed(scene, accuracy, values)

@@ -1,4 +1,4 @@
-"""What to cite for a scene, a plan or a result: works with their entries of BibTeX.
+"""Works to cite for a scene, a plan or a result, with their entries of BibTeX.
 
 In reading order:
 

@@ -13,11 +13,11 @@ import unicodedata
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
 from importlib import resources
-from types import MappingProxyType
 
 from attrs import field, frozen
 
 from .._version import __version__
+from ..frozen import FrozenDict
 
 __all__ = ["Reference", "bibliography", "contactkit_itself", "references_in"]
 
@@ -93,7 +93,9 @@ https://doi.org/10.1137/S1052623401383558
         return f"@{self.kind}{{{self.key},\n{''.join(lines)}}}\n"
 
     def place_in(self, text: str) -> int | None:
-        """Where a text names the work by its label, or a report by its number; None: nowhere.
+        """Return the place at which a text names the work; None: nowhere.
+
+        It names it by its label, or a report by its number.
 
         Examples
         --------
@@ -149,8 +151,8 @@ def bibliography() -> Mapping[str, Reference]:
     found = {}
     for entry in _ENTRY.finditer(text):
         fields = {one["name"]: one["value"] for one in _FIELD.finditer(entry["fields"])}
-        found[entry["key"]] = Reference(entry["key"], entry["kind"], MappingProxyType(fields))
-    return MappingProxyType(found)
+        found[entry["key"]] = Reference(entry["key"], entry["kind"], FrozenDict(fields))
+    return FrozenDict(found)
 
 
 def contactkit_itself() -> Reference:
@@ -162,7 +164,7 @@ def contactkit_itself() -> Reference:
     'contactkit'
     """
     one = bibliography()["contactkit"]
-    fields = MappingProxyType(dict(one.fields) | {"version": __version__})
+    fields = FrozenDict(dict(one.fields) | {"version": __version__})
     return Reference(one.key, one.kind, fields)
 
 

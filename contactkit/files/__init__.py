@@ -12,5 +12,6 @@ results          Result files: npz with a JSON header, and CSV.
 deforming_results
                  Results of deforming bodies as arrays and a header, and back.
 curves           Saved curves: columns with their units, numbers and sources, and back.
+surfaces         Surfaces and maps of results as topographies, alone and in containers.
 contact_results  Contact results as arrays and a header of plain values, and back.
 """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib import resources
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, TypeVar, get_args
@@ -32,6 +32,7 @@ from ..scene.meniscus import Meniscus
 from ..scene.scenes import ContactScene, Scene
 from ..scene.surfaces import Surface
 from ..units import parse_quantity
+from ..validators import check_text
 from .meniscus_amount import AMOUNT_KEYS, amount_of, check_flat, with_amount
 from .toml_lines import line_of, lines_of_keys
 from .unstructure import unstructure, with_arrays
@@ -266,19 +267,68 @@ def _attrs_class(kind: type, more: tuple[str, ...] = ()) -> Callable[[Any, Any],
     def hook(value: Any, target: Any) -> Any:
         if not isinstance(value, Mapping):
             raise DescriptionError(kind.__name__, value, "be a table")
-        for key in value:
-            if key not in known:
-                raise DescriptionError(
-                    f"{kind.__name__}.{key}",
-                    value[key],
-                    "be a known key",
-                    hint=_moved(kind, key)
-                    or renamed(key)
-                    or _owners(kind, key) + nearest(key, (*known, *more)),
-                )
-        return inner(value, target)
+        unknown = [
+            DescriptionError(
+                f"{kind.__name__}.{key}",
+                value[key],
+                "be a known key",
+                hint=_moved(kind, key)
+                or renamed(key)
+                or _owners(kind, key) + nearest(key, (*known, *more)),
+            )
+            for key in value
+            if key not in known
+        ]
+        try:
+            made = inner({key: value[key] for key in value if key in known}, target)
+        except cattrs.ClassValidationError as error:
+            raise _with_others(error, unknown, kind, value) from None
+        if len(unknown) == 1:
+            raise unknown[0]
+        if unknown:
+            raise cattrs.ClassValidationError("unknown keys", unknown, kind)
+        return made
 
     return hook
+
+
+def _with_others(
+    error: cattrs.ClassValidationError,
+    unknown: list[DescriptionError],
+    kind: type,
+    value: Mapping[str, Any],
+) -> cattrs.ClassValidationError:
+    """Add the other mistakes of a table to the first: unknown keys, and what fields refuse.
+
+    Beside an unknown key, one that is missing may be the same one.
+    """
+    found: list[Exception] = list(unknown)
+    found += [one for one in error.exceptions if not (unknown and isinstance(one, KeyError))]
+    said = {str(one) for one in found}
+    found += [one for one in _refused(kind, value) if str(one) not in said]
+    return cattrs.ClassValidationError(error.message, found, kind)
+
+
+def _refused(kind: type, value: Mapping[str, Any]) -> Iterator[DescriptionError]:
+    """Refusals of single fields of a table, each by the validator of its class."""
+    owner: Any = object.__new__(kind)  # for its name: it has no fields
+    for one in attrs.fields(kind):
+        if one.alias not in value:
+            continue
+        # Wrong in itself, which was found, or in relation to other fields.
+        with suppress(
+            AttributeError, TypeError, ValueError, LookupError, cattrs.BaseValidationError
+        ):
+            try:
+                given, converter = field_value(kind, one.name, value[one.alias]), one.converter
+                if not isinstance(given, str):
+                    check_text(kind.__name__, one, given)
+                if one.validator is not None:
+                    one.validator(owner, one, given if converter is None else converter(given))
+            except FileError:
+                continue  # of a table in it, which states its own
+            except DescriptionError as refusal:
+                yield refusal
 
 
 def _liquid(value: Any, _: Any) -> Liquid:
@@ -336,12 +386,22 @@ def _loading(value: Any, wanted: type[Loading]) -> Loading:
         fits = [name for name, one in known.by_name.items() if fields.keys() <= _keys(one)]
         hint = f"its keys are those of kind = {' or '.join(map(repr, fits))}" if fits else ""
         raise DescriptionError("loading.kind", given, expected, hint=hint)
+    unknown = list[Exception]()
     for key in sorted(fields.keys() - _keys(kind)):
         owners = [name for name, one in LOADINGS.by_name.items() if key in _keys(one)]
         hint = f"it belongs to {' or '.join(owners)}; " if owners else ""
         hint += nearest(key, sorted(_keys(kind)))
-        raise DescriptionError(f"loading.{key}", fields[key], f"be a key of {given}", hint=hint)
-    made: Loading = _attrs_class(kind)(fields, kind)
+        expected = f"be a key of {given}"
+        unknown.append(DescriptionError(f"loading.{key}", fields.pop(key), expected, hint=hint))
+    try:
+        made: Loading = _attrs_class(kind)(fields, kind)
+    except cattrs.ClassValidationError as error:
+        found = [one for one in error.exceptions if not (unknown and isinstance(one, KeyError))]
+        raise cattrs.ClassValidationError(error.message, [*unknown, *found], kind) from None
+    if len(unknown) == 1:
+        raise unknown[0]
+    if unknown:
+        raise cattrs.ClassValidationError("unknown keys", unknown, kind)
     return made
 
 
@@ -391,8 +451,14 @@ def _carrier(value: Any, _: Any) -> Material | RigidBase:
     return _material(value, Material)
 
 
+def _as_text(value: Any, _: Any) -> Any:
+    """A text; what is none is refused by its field, where cattrs would write it as one."""
+    return value
+
+
 _CONVERTER = cattrs.Converter()
 _CONVERTER.register_structure_hook(bool, _bool)
+_CONVERTER.register_structure_hook(str, _as_text)
 _CONVERTER.register_structure_hook_factory(attrs.has, _attrs_class)
 _CONVERTER.register_structure_hook_factory(_is_base, _of_family)
 _CONVERTER.register_structure_hook_factory(_is_choice, _choice)

@@ -15,6 +15,8 @@ result      Result of a fit: values, intervals, verdicts, residuals, the fitted 
 profile     Profile likelihood of a parameter.
 posterior   Posterior, by the ensemble sampler of emcee.
 compare     `compare_fits`: which of several models the data ask for.
-readers     Measured curves from CSV files, data frames, datasets, results and AFM files.
+readers     Measured curves from CSV files, data frames, datasets and results.
+force_curves
+            Force curves of atomic force microscopes, in and out.
 fit_file    Files of fits.
 """

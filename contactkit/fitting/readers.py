@@ -1,4 +1,4 @@
-"""Readers of measured curves: CSV files, data frames, datasets, results, force curves of AFMs."""
+"""Readers of measured curves: CSV files, data frames, datasets, results."""
 
 from __future__ import annotations
 
@@ -7,13 +7,12 @@ import io
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import DescriptionError, nearest
-from ..extras import require
-from ..reading.limits import check_limit, check_size
+from ..reading.limits import check_limit
 from ..reading.texts import read_text
 from ..scene.curve import Curve
 from ..scene.result import Result
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-__all__ = ["read_force_curve", "read_measured_curve"]
+__all__ = ["read_measured_curve"]
 
 _HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])])?\s*")
 _Column = tuple[Any, str]
@@ -180,84 +179,3 @@ def _number(cell: str, column: str, row: int) -> float:
     except ValueError:
         hint = "a decimal comma? write a point" if "," in cell else "leave out the row"
         raise DescriptionError(f"{column}, row {row}", cell, "be a number", hint=hint) from None
-
-
-def read_force_curve(
-    path: str | Path,
-    *,
-    over: str = "gap",
-    quantity: str = "pull",
-    segment: Literal["approach", "retract"] = "retract",
-    index: int = 0,
-    is_load: bool = False,
-    **more: Any,
-) -> MeasuredCurve:
-    """Read a force curve of an atomic force microscope (extra ``afm``).
-
-    Formats are those of afmformats: JPK, Igor, NT-MDT, AFM workshop, HDF5 and others. The axis is
-    the height of the base of the cantilever, whose spring constant becomes the stiffness of the
-    curve; the contact point is not known: give ``shift`` as a `Range`.
-
-    Parameters
-    ----------
-    path : str or Path
-        The file.
-    over, quantity : str
-        As of `MeasuredCurve`; the height rises with the gap, and attraction is positive.
-    segment : {"approach", "retract"}
-        Which part.
-    index : int
-        Which curve of a file with several.
-    is_load : bool
-        Whether the quantity is a load over an approach: both then change their sign.
-    **more
-        Further fields of the `MeasuredCurve`; ``stiffness`` in place of that of the file.
-
-    Raises
-    ------
-    MissingExtraError
-        If afmformats is not installed: ``pip install contactkit[afm]``.
-    DescriptionError
-        If the file is none that it reads, or lacks force or height.
-    """
-    require("afmformats", "a force curve of an AFM")
-    check_size(Path(path))
-    if segment not in ("approach", "retract"):
-        raise DescriptionError("segment", segment, "be 'approach' or 'retract'")
-    curves = _afm(Path(path))
-    if not 0 <= index < len(curves):
-        raise DescriptionError("index", index, f"be below {len(curves)}, the curves of the file")
-    one = curves[index]
-    part = one.appr if segment == "approach" else one.retr
-    height = next((n for n in ("height (measured)", "height (piezo)") if n in one), None)
-    if height is None or "force" not in one:
-        hint = f"it has {', '.join(map(str, one.columns))}"
-        raise DescriptionError("file", str(path), "hold force and height", hint=hint)
-    sign = -1.0 if is_load else 1.0
-    spring = one.metadata.get("spring constant")
-    if spring is not None and "stiffness" not in more:
-        more["stiffness"] = float(spring)
-    return MeasuredCurve(
-        over=over,
-        at=sign * np.asarray(part[height], dtype=np.float64),
-        quantity=quantity,
-        values=-sign * np.asarray(part["force"], dtype=np.float64),
-        units=("m", "N"),
-        **({"name": f"{Path(path).stem}, {segment}"} | more),
-    )
-
-
-def _afm(path: Path) -> list[Any]:
-    """Curves of a file; what its reader raises names no cure of its own."""
-    import afmformats
-
-    # Its own errors are not derived from `Exception`.
-    own = [one for one in vars(afmformats.errors).values() if isinstance(one, type)]
-    unreadable: tuple[type[BaseException], ...] = (Exception, *own)
-    try:
-        return list(afmformats.load_data(path, modality="force-distance"))
-    except unreadable as error:
-        hint = f"{type(error).__name__}: {error}"[:300]
-        raise DescriptionError(
-            "file", str(path), "be a force curve that afmformats reads", hint=hint
-        ) from None

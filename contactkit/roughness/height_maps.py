@@ -253,7 +253,7 @@ def read_height_map(
         heights, size = read_surface_data(file)
     else:
         heights, size, source, is_periodic = read_instrument(file, size, unit, channel)
-    checked = _checked(heights, file, holes=holes)
+    checked = checked_heights(heights, file, holes=holes)
     if not all(math.isfinite(d) and 0.0 < d <= LARGEST for d in size):
         raise DescriptionError(
             "HeightMap.pixel_size", size, f"be positive and finite in {file.name}", unit="m"
@@ -298,7 +298,14 @@ def _load_npy(file: Path) -> Array:
     return raw.astype(np.float64)
 
 
-def _checked(heights: Array, file: Path, *, holes: bool) -> Array:
+def checked_heights(heights: Array, file: Path, *, holes: bool) -> Array:
+    """Return the heights of a file as an array of doubles, nan in holes.
+
+    Raises
+    ------
+    DescriptionError
+        If they are no map, too many or too large, or some are missing and `holes` is false.
+    """
     if heights.ndim != 2 or min(heights.shape) < 2:
         raise DescriptionError(
             "HeightMap.heights",

@@ -27,7 +27,12 @@ _UNMARKED = ("hgt", "nms")
 
 
 def answer(
-    folder: str, file: str, size: list[float] | None, unit: str | None, channel: int | None
+    folder: str,
+    file: str,
+    size: list[float] | None,
+    unit: str | None,
+    channel: int | None,
+    place: list[int] | None = None,
 ) -> None:
     """Read a channel and write heights and fields, or the error, into a folder."""
     _bound_memory()
@@ -36,10 +41,13 @@ def answer(
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of a reader, about properties checked below
-            from SurfaceTopography import open_topography
+            if place is not None:
+                found = _of_container(file, *place)
+            else:
+                from SurfaceTopography import open_topography
 
-            with open_topography(file) as reader:
-                found = read_channel(reader, Path(file), pair, unit, channel)
+                with open_topography(file) as reader:
+                    found = read_channel(reader, Path(file), pair, unit, channel)
         heights = np.ma.filled(found.heights.astype(np.float64), np.nan)
         np.save(Path(folder, HEIGHTS), np.ascontiguousarray(heights))
         said = found._asdict() | {"heights": HEIGHTS}
@@ -50,6 +58,22 @@ def answer(
     except Exception as error:  # noqa: BLE001 some twenty readers, which raise what they like
         said = {"unreadable": f"{type(error).__name__}: {error}"[:200]}
     Path(folder, ANSWER).write_text(json.dumps(said), encoding="utf-8")
+
+
+def _of_container(file: str, surface: int, index: int) -> Channel:
+    """Read a topography of a container, with the scale and the trend that it states."""
+    from SurfaceTopography.Container.IO import CEReader
+
+    found = CEReader(file).container(surface)[index]
+    if found.dim != 2:
+        raise DescriptionError(
+            "topography", index, "be a map", hint="a profile along a line is not a surface"
+        )
+    check_limit("PIXELS", math.prod(found.nb_grid_pts), file)
+    found = found.to_unit("m")
+    dx, dy = found.pixel_size
+    heights = np.ma.asarray(found.heights()).T  # there, arrays are [x, y]
+    return Channel(heights, (float(dy), float(dx)), Path(file).name, bool(found.is_periodic))
 
 
 def _bound_memory() -> None:

@@ -64,7 +64,11 @@ class Channel(NamedTuple):
 
 
 def read_instrument(
-    file: Path, size: Pair | None, unit: str | None, channel: int | None
+    file: Path,
+    size: Pair | None,
+    unit: str | None,
+    channel: int | None,
+    place: tuple[int, int] | None = None,
 ) -> Channel:
     """Read a channel of a file of an instrument, with what the file does not state.
 
@@ -78,6 +82,8 @@ def read_instrument(
         Unit of the heights.
     channel : int or None
         Index of the map in a file with several.
+    place : (int, int), optional
+        Of a container: indices of the surface and of its topography.
 
     Raises
     ------
@@ -96,7 +102,7 @@ def read_instrument(
             with checked_archive(content, str(file)):
                 pass  # it unpacks to what may be read
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
-        _ask(Path(folder), file, {"size": size, "unit": unit, "channel": channel})
+        _ask(Path(folder), file, {"size": size, "unit": unit, "channel": channel, "place": place})
         return _answered(Path(folder), file)
 
 

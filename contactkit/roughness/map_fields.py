@@ -8,7 +8,11 @@ from typing import Any
 from ..errors import DescriptionError
 from ..units import parse_unit
 
-__all__ = ["given_twice", "length_unit", "needed"]
+__all__ = ["LineScanError", "given_twice", "length_unit", "needed"]
+
+
+class LineScanError(DescriptionError):
+    """A file holds a profile along a line where a map is wanted."""
 
 
 def needed(value: Any, field: str, example: str, file: Path) -> Any:

@@ -18,6 +18,7 @@ from ..errors import DescriptionError
 from ..reading.named_files import Contents
 from ..units import parse_quantity, si
 from ..validators import (
+    SAME_NUMBERS,
     Described,
     as_pair,
     as_path,
@@ -468,7 +469,7 @@ def _as_coverage(value: Any) -> Map:
     return made
 
 
-@frozen(kw_only=True, eq=False)
+@frozen(kw_only=True)
 class Image(Planform):
     """A planform drawn as an image: the fraction of each pixel that it covers.
 
@@ -493,6 +494,8 @@ class Image(Planform):
     coverage: Map = field(
         converter=_as_coverage,
         repr=False,
+        eq=SAME_NUMBERS,
+        hash=False,
         metadata=si("-")
         | {
             "in_file": "save the array as .npy and use ImageFile(path=..., pixel_size=...), in a "

@@ -14,6 +14,7 @@ from ..errors import DescriptionError
 from ..reading.named_files import Contents
 from ..units import si
 from ..validators import (
+    SAME_NUMBERS,
     as_pair,
     as_path,
     as_tuple,
@@ -211,6 +212,10 @@ class Measured(Surface):
         """See `Surface.heights_on`; reads the file."""
         return _FILES.of(self).heights_on(grid)
 
+    def as_heights(self) -> Heights:
+        """Return the map as an array, without the trend, with its holes; reads the file."""
+        return _FILES.of(self)
+
 
 def _read(surface: Measured) -> Heights:
     import numpy as np
@@ -280,7 +285,7 @@ def _as_holes(value: Any) -> Mask | None:
     return made
 
 
-@frozen(kw_only=True, eq=False)
+@frozen(kw_only=True)
 class Heights(Surface):
     """Heights given as an array.
 
@@ -313,6 +318,8 @@ class Heights(Surface):
     heights: Map = field(
         converter=_as_map,
         repr=False,
+        eq=SAME_NUMBERS,
+        hash=False,
         metadata=si("m")
         | {
             "in_file": "save the array as .npy and use Measured(path=..., pixel_size=..., "
@@ -327,6 +334,8 @@ class Heights(Surface):
         default=None,
         converter=_as_holes,
         repr=False,
+        eq=SAME_NUMBERS,
+        hash=False,
         metadata={
             "in_file": "save the array as .npy, with nan in the holes, and use Measured(path=..., "
             "holes='masked')"

@@ -12,7 +12,7 @@ import attrs
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
-from ..files.structure import field_value, renamed
+from ..files.structure import field_value, renamed, resolved
 from ..reading.limits import check_limit
 from ..scene.effect import Effect
 from ..scene.scenes import ContactScene, SeparationScene, SlidingScene
@@ -29,6 +29,7 @@ __all__ = [
     "joined",
     "paths_of",
     "read_value",
+    "takes_text",
     "value_at",
 ]
 
@@ -161,6 +162,21 @@ def read_value(scene: Any, accuracy: Accuracy | None, path: str, value: Any, ori
         If the path does not exist, or the value cannot be read.
     """
     return _value(_owner(scene, accuracy, path, origin), value)
+
+
+def takes_text(scene: Any, accuracy: Accuracy | None, path: str, origin: str) -> bool:
+    """Whether the field of a path takes a text and nothing else, such as a name.
+
+    Raises
+    ------
+    DescriptionError
+        If the path does not exist.
+    """
+    owner = _owner(scene, accuracy, path, origin)
+    if owner.kind is None:
+        return False
+    resolved(owner.kind)
+    return getattr(attrs.fields(owner.kind), owner.field).type is str
 
 
 def paths_of(owner: Any) -> Iterator[str]:

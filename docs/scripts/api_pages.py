@@ -85,7 +85,7 @@ TOPICS = (
     Topic(
         "files",
         "Files and units",
-        ("files",),
+        ("files", "citing"),
         _of("units", "celsius", "parse_quantity", "quantity_text"),
     ),
     Topic(

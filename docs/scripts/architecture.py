@@ -34,6 +34,7 @@ ACROSS = {
         "analyses": 0.68,
         "shortcuts": 0.02,
         "files": 0.42,
+        "citing": 0.12,
         "effects": 0.53,
         "planning": 0.85,
         "contact": 0.33,
@@ -46,7 +47,14 @@ ACROSS = {
         "lubrication": 0.82,
         "kinds": 0.635,
     },
-    **{"adhesion": 0.98, "numerics": 0.82, "reference": 0.02, "export": 0.45, "reading": 0.3},
+    **{
+        "adhesion": 0.98,
+        "numerics": 0.82,
+        "reference": 0.02,
+        "export": 0.45,
+        "reading": 0.3,
+        "arguments": 0.69,
+    },
 }
 
 

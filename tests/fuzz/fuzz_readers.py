@@ -48,6 +48,7 @@ def readers() -> dict[str, Callable[[], Reader]]:
         "fit": _fits,
         "measured curve": _measured,
         "map": _maps,
+        "container": _containers,
         "image": _images,
         "fmu": _fmus,
         "ssp": _components,
@@ -228,6 +229,19 @@ def _maps() -> Reader:
         "a.sdf": _SDF.encode(),
     }
     return Reader(seeds, _read_map, _check_map)
+
+
+def _containers() -> Reader:
+    with tempfile.TemporaryDirectory() as folder:
+        one = ck.Heights(heights=np.ma.masked_equal(_HEIGHTS, 3.0), pixel_size=1e-9)
+        content = ck.write_surfaces(Path(folder) / "a.zip", {"a": one, "b": one}).read_bytes()
+
+    def check(found: Any) -> None:
+        assert found
+        for surface in found.values():
+            _check_map(surface)
+
+    return Reader({"a.zip": content}, ck.read_surfaces, check)
 
 
 def _images() -> Reader:

@@ -170,6 +170,8 @@ def fitted():
 
 
 MADE = {
+    "works to cite": lambda: ck.cite(film()),
+    "surface": lambda: ck.Heights(heights=[[0.0, 1e-9], [2e-9, 0.0]], pixel_size=1e-8),
     "separation plan": lambda: ck.plan(film()),
     "sliding plan": lambda: ck.plan(sliding()),
     # What is prepared is not pickled, nor the memory that only it can state.

@@ -44,6 +44,7 @@ OUTSIDE = {
     "pickle.loads": ("contactkit/studies/run.py",),  # from the process that started this one
     "zipfile.ZipFile": (
         "contactkit/reading/archives.py",
+        "contactkit/roughness/containers.py",  # writes
         "fmu/contents/packing.py",  # writes
         "fmu/python/build.py",  # what it has just made
     ),

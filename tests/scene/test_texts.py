@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import contactkit as ck
-from contactkit.arguments import listed
+from contactkit.arguments import listed, positive_values
+from contactkit.files.structure import structure
 from contactkit.units import si
 from contactkit.validators import positive
 
@@ -77,3 +78,25 @@ def test_functions_take_sequences_with_texts():
     )
     curve = ck.load_curve(ck.plan(scene), pressures=["100 MPa", "200 MPa"])
     assert curve.columns["mean_pressure"] == pytest.approx([1e8, 2e8], rel=1e-6)
+
+
+@pytest.mark.errors
+@pytest.mark.parametrize("given", [7, True, 1.5, ("steel",)])
+def test_a_number_is_no_text(given):
+    """Not in Python, and not in a file, where it once became the text of the number."""
+    elastic = {"young_modulus": "210 GPa", "poisson_ratio": 0.3}
+    with pytest.raises(ck.DescriptionError, match=r"Material\.name must be a text"):
+        ck.Material(name=given, **elastic)
+    with pytest.raises(ck.DescriptionError, match=r"Material\.name must be a text"):
+        structure({"name": given} | elastic, ck.Material, "steel.toml")
+    with pytest.raises(ck.DescriptionError, match=r"Measured\.checksum must be a text"):
+        ck.Measured(path="a.npy", checksum=given)
+    assert ck.Measured(path="a.npy", checksum=None).checksum is None
+
+
+@pytest.mark.errors
+@pytest.mark.parametrize("given", [0.0, [1.0, -1.0], [], math.nan, [[1.0]], "-1 mm/s"])
+def test_values_of_an_analysis_are_positive_along_one_axis(given):
+    with pytest.raises(ck.DescriptionError, match=r"speeds must be"):
+        positive_values("speeds", given, "m/s")
+    assert positive_values("speeds", ["1 mm/s", 2.0], "m/s").tolist() == [1e-3, 2.0]

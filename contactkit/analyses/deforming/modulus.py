@@ -10,6 +10,7 @@ import numpy as np
 from attrs import field, frozen
 
 from ...accuracy import Accuracy
+from ...arguments import positive_values
 from ...errors import PlanError
 from ...lubrication.elastohydrodynamic import response
 from ...lubrication.elastohydrodynamic.mesh import RingMesh, disc_nodes, graded_nodes
@@ -19,7 +20,6 @@ from ...scene.plan import check_scene
 from ...scene.scenes import SeparationScene
 from ...separation.deforming.plan import plan_deforming
 from ...units import si
-from .pull_off_speed import positive_values
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -128,7 +128,7 @@ def modulus_curve(
             "modulus_curve needs a flooded film: the rim of a meniscus moves; leave "
             "interface.meniscus without volume and pressure, and MeniscusForce out"
         )
-    given = positive_values(frequencies, "modulus_curve(frequencies)", "Hz")
+    given = positive_values("modulus_curve(frequencies)", frequencies, "Hz")
     rates = math.tau * given
     found = response.extrapolated(*(_moduli(film, n, rates) for n in _meshes(film)))
     is_flat = math.isinf(film.radius)

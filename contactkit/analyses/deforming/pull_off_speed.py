@@ -9,8 +9,8 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from ...accuracy import Accuracy
-from ...arguments import listed
-from ...errors import DescriptionError, PlanError
+from ...arguments import positive_values
+from ...errors import PlanError
 from ...scene.curve import Curve, Shown
 from ...scene.loading import ImposedSpeed, PressAndPull
 from ...scene.plan import check_scene
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-__all__ = ["PullOffSpeedCurve", "positive_values", "pull_off_over_speed"]
+__all__ = ["PullOffSpeedCurve", "pull_off_over_speed"]
 
 
 @frozen(eq=False)
@@ -63,14 +63,6 @@ class PullOffSpeedCurve(Curve):
     def sources(self) -> tuple[str, ...]:
         """See `Curve.sources`."""
         return ("Davis, Serayssol and Hinch 1986: film and elastic sphere together",)
-
-
-def positive_values(values: Sequence[float | str] | Floats, where: str, unit: str) -> Floats:
-    """Return values as an array; refuse what is not positive and finite."""
-    given = listed(where, values, unit)
-    if not (given > 0.0).all():
-        raise DescriptionError(where, values, "be positive and finite numbers", unit=unit)
-    return given
 
 
 def pull_off_over_speed(
@@ -119,7 +111,7 @@ def pull_off_over_speed(
     if not isinstance(loading, ImposedSpeed | PressAndPull) or loading.speed is None:
         raise PlanError("pull_off_over_speed needs a loading with a speed: ImposedSpeed(...)")
     found: list[dict[str, Any]] = []
-    for speed in positive_values(speeds, "pull_off_over_speed(speeds)", "m/s"):
+    for speed in positive_values("pull_off_over_speed(speeds)", speeds, "m/s"):
         made = plan_deforming(evolve(scene, loading=evolve(loading, speed=float(speed))), accuracy)
         numbers = dict(pull_apart(made).numbers)
         rigid = numbers["pull_off_force"] / numbers["force_over_rigid"]

@@ -9,6 +9,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from ...accuracy import Accuracy
+from ...arguments import positive_values
 from ...errors import DescriptionError, PlanError
 from ...scene.curve import Curve, Shown
 from ...scene.loading import ImposedForce, PressAndPull
@@ -17,7 +18,6 @@ from ...scene.scenes import SeparationScene
 from ...separation.deforming.plan import plan_deforming
 from ...separation.deforming.run import pull_apart
 from ...units import si
-from .pull_off_speed import positive_values
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -104,7 +104,7 @@ def release_over(
         raise PlanError("release_over(rests=...) needs loading = PressAndPull(...), with a rest")
     name, values, unit = ("force", forces, "N") if rests is None else ("rest", rests, "s")
     rows = []
-    for value in positive_values(values or (), f"release_over({name}s)", unit):
+    for value in positive_values(f"release_over({name}s)", values or (), unit):
         imposed = _with(loading, name, float(value))
         result = pull_apart(plan_deforming(evolve(scene, loading=imposed), accuracy))
         rest = imposed.rest if isinstance(imposed, PressAndPull) else 0.0

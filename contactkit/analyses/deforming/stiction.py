@@ -9,6 +9,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from ...accuracy import Accuracy
+from ...arguments import positive_values
 from ...errors import PlanError
 from ...scene.curve import Curve, Shown
 from ...scene.loading import PressAndPull
@@ -17,7 +18,6 @@ from ...scene.scenes import SeparationScene
 from ...separation.deforming.plan import plan_deforming
 from ...separation.deforming.run import pull_apart
 from ...units import si
-from .pull_off_speed import positive_values
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -91,8 +91,8 @@ def stiction_table(
     if not isinstance(loading, PressAndPull):
         raise PlanError("stiction_table needs loading = PressAndPull(...), with a rest")
     rows = []
-    for rest in positive_values(rests, "stiction_table(rests)", "s"):
-        for humidity in positive_values(humidities, "stiction_table(humidities)", "-"):
+    for rest in positive_values("stiction_table(rests)", rests, "s"):
+        for humidity in positive_values("stiction_table(humidities)", humidities, "-"):
             moist = evolve(
                 scene.meniscus, volume=None, pressure=None, relative_humidity=float(humidity)
             )

@@ -494,7 +494,7 @@ class TensionLimit(FilmLimit):
         return ("parabolic pressure truncated at the limit; Scheidl and Gradl 2016",)
 
     def cites(self, scene: SeparationScene) -> tuple[str, ...]:
-        """See `Effect.cites`; on a face, cells that are full or torn are found too."""
+        """See `Effect.cites`; on a face the edge of the cavity is sought cell by cell."""
         if not (self.follows_cavity and on_face(scene)):
             return self.sources
         return (

@@ -374,6 +374,44 @@ def test_a_curve_that_ends_before_the_pull_off_warns(first, words):
     assert curve.validity[-1].value == -curve.separating.load[-1] / curve.pull_off_force
 
 
+def missed(curve):
+    return [one.value for one in curve.validity if "by the approaches" in one.name]
+
+
+def soft_pull(n):
+    """A soft sphere whose load is smooth over the approach, at n approaches and no others."""
+    rubber = ck.Material(young_modulus=1e6, poisson_ratio=0.5)
+    made = ck.ContactScene(
+        interface=ck.Interface(
+            lower=ck.Body(solid=rubber), upper=ck.Body(surface=ck.Paraboloid(radius=100e-6))
+        ),
+        window=ck.Window(width=50e-6, periodic=False),
+        loading=ck.Approach(approach=0.0),
+        effects=(
+            ck.HalfSpace(),
+            ck.Adhesion(law=ck.ExponentialAttraction(work_of_adhesion=0.05, range=2e-6)),
+        ),
+    )
+    plan = ck.plan(made, ck.Accuracy(grid=24, rtol=1e-6))
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", ck.ValidityWarning)
+        curve = ck.pull_off_curve(plan, np.linspace(-3e-6, 1e-6, n), n_refinements=0)
+    said = sum("give more approaches there" in str(one.message) for one in heard)
+    return curve, said
+
+
+def test_the_error_of_an_extreme_bounds_what_the_approaches_miss():
+    """The extremes of sparse approaches against those of dense ones."""
+    dense, said = soft_pull(65)
+    assert max(missed(dense)) < 5e-3
+    assert said == 0
+    for n in (3, 4, 5, 7, 13):
+        sparse, said = soft_pull(n)
+        lost = 1.0 - sparse.pull_off_force / dense.pull_off_force
+        assert 0.01 < lost < missed(sparse)[0], n
+        assert said == 2
+
+
 def test_a_reversible_loop_is_none_within_its_error():
     """A stiff sphere with a long range, whose branches have states in different places."""
     stiff = ck.Material(young_modulus=210e9, poisson_ratio=0.3)
