@@ -79,6 +79,7 @@ if TYPE_CHECKING:
     from .contact.effects.stress import SubsurfaceStress
     from .contact.functionals import Functional, Slopes
     from .contact.plan import ContactPlan
+    from .contact.arrays.press_maps import press_maps
     from .contact.press import press
     from .contact.result import ContactResult
     from .contact.solve import solve
@@ -323,6 +324,7 @@ _HOMES = {
     "plan": "planning",
     "plan_study": "studies.estimate",
     "press": "contact.press",
+    "press_maps": "contact.arrays.press_maps",
     "published": "as_published.lookup",
     "pull_off_curve": "analyses.pull_off",
     "modulus_curve": "analyses.deforming.modulus",
@@ -489,6 +491,7 @@ __all__ = [
     "plan",
     "plan_study",
     "press",
+    "press_maps",
     "published",
     "pull_off_curve",
     "pull_off_over_speed",
