@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from .analyses.pull_off import pull_off_curve
     from .analyses.stick_slip import SpringSlider, stick_slip
     from .as_published.lookup import PUBLISHED, published
+    from .contact.arrays.press_maps import press_maps
     from .contact.discretisation import discretisation_error
     from .contact.effects.adhesion import Adhesion
     from .contact.effects.attraction_laws import (
@@ -79,7 +80,6 @@ if TYPE_CHECKING:
     from .contact.effects.stress import SubsurfaceStress
     from .contact.functionals import Functional, Slopes
     from .contact.plan import ContactPlan
-    from .contact.arrays.press_maps import press_maps
     from .contact.press import press
     from .contact.result import ContactResult
     from .contact.solve import solve

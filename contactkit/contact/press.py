@@ -159,7 +159,9 @@ def pixel_size_of(given: Any, of: str = "press") -> float | tuple[float, float]:
 
 def _surface(heights: Any, pixel_size: Any) -> Heights:
     if not is_topography(heights):
-        size: Any = None if pixel_size is None else pixel_size_of(pixel_size)  # None is refused there
+        size: Any = None  # refused there
+        if pixel_size is not None:
+            size = pixel_size_of(pixel_size)
         return Heights(heights=heights, pixel_size=size)
     if pixel_size is not None:
         raise DescriptionError(

@@ -44,8 +44,8 @@ class Space:
         >>> space_of(np.ones((2, 2), np.float32)).take([1.0, 2.0])
         array([1., 2.], dtype=float32)
         """
-        if _is_of_numpy(values) and self.xp is not np:
-            values = np.ascontiguousarray(values).tolist() if np.ndim(values) == 0 else values
+        if isinstance(values, np.generic):
+            values = values.item()
         return self.xp.asarray(values, dtype=self.dtype, device=self.device)
 
     def total(self, maps: Any) -> Any:
@@ -59,10 +59,6 @@ class Space:
     def highest(self, maps: Any) -> Any:
         """Maximum of each map, (n, 1, 1)."""
         return self.xp.max(maps, axis=(-2, -1), keepdims=True)
-
-
-def _is_of_numpy(values: Any) -> bool:
-    return isinstance(values, np.ndarray | np.generic)
 
 
 def space_of(heights: Any) -> Space:
@@ -82,7 +78,7 @@ def space_of(heights: Any) -> Space:
     >>> space_of([[1, 2]]).dtype
     <class 'numpy.float64'>
     """
-    if _is_of_numpy(heights) or isinstance(heights, list | tuple):
+    if isinstance(heights, np.ndarray | np.generic | list | tuple | int | float):
         is_single = getattr(heights, "dtype", None) == np.float32
         return Space(np, "cpu", np.float32 if is_single else np.float64)
     require("array_api_compat", f"a contact of arrays of {type(heights).__module__}")

@@ -5,10 +5,9 @@ Sign convention: pressure, heights and displacement positive into the solid.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from typing import Any
-
-import numpy as np
 
 from ...numerics.fft import Edges
 from ..solver.convolution import SymbolMaker
@@ -51,7 +50,7 @@ def solve_nested(
 ) -> MapsIteration:
     """Solve roughly on ever finer grids, then to the tolerance on the finest."""
     problems, transfers = [problem], list[Transfer]()
-    for fine, coarse in zip(operators[:-1], operators[1:], strict=True):
+    for fine, coarse in itertools.pairwise(operators):
         transfers.append(Transfer(space, fine.shape, coarse.shape))
         pixels = fine.shape[0] * fine.shape[1], coarse.shape[0] * coarse.shape[1]
         problems.append(restricted(problems[-1], transfers[-1].average, *pixels))

@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...errors import ConvergenceError, DescriptionError, InfeasibleError
+from ...errors import ConvergenceError
 from ...scene.interface import Body
 from ...scene.materials import Solid
 from ...scene.window import Edges, Grid
 from ..effects.elasticity import symbol_maker
-from ..press import number_of, pixel_size_of
 from ..solver.contact_solver import ContactSolver
+from .given import (
+    GivenMaps,
+    checked_axis,
+    checked_maps,
+    checked_pixel,
+    checked_solid,
+    checked_tolerance,
+    refuse_closed_gap,
+)
 from .namespace import Space, space_of
 from .nested import nested_operators, solve_nested
-from .problem import first_touch, pose_maps
+from .problem import pose_maps
 from .result import MapsResult
 
 if TYPE_CHECKING:
@@ -24,18 +32,7 @@ if TYPE_CHECKING:
 
 __all__ = ["press_maps"]
 
-RTOL, RTOL_SINGLE = 1e-8, 1e-4
 MOST_ITERATIONS = 3000
-
-
-class _Given(NamedTuple):
-    """Checked input: heights (n, ny, nx), one of the loads (n, 1, 1), bound, leading axes."""
-
-    heights: Any
-    mean_pressure: Any
-    rigid_approach: Any
-    bound: Any
-    leading: tuple[int, ...]
 
 
 def press_maps(
@@ -112,13 +109,12 @@ def press_maps(
     (array([0.5, 0. ]), array([ True,  True]))
     """
     space = space_of(heights)
-    rtol = _tolerance(space, rtol)
-    flat = Body(solid=_checked_solid(stack)).elastic_stack
-    given = _checked(space, heights, mean_pressure, approach, hardness)
-    size = pixel_size_of(pixel_size, "press_maps")
-    pixel = size if isinstance(size, tuple) else (size, size)
+    rtol = checked_tolerance(space, rtol)
+    flat = Body(solid=checked_solid(stack)).elastic_stack
+    given = checked_maps(space, heights, mean_pressure, approach, hardness)
+    pixel = checked_pixel(pixel_size)
     _, ny, nx = given.heights.shape
-    along = periodic if isinstance(periodic, str) else None
+    along = checked_axis(periodic)
     make = symbol_maker(flat, Grid((ny, nx), pixel, periodic is True, along))
     if space.xp is np:
         found = _by_contact_solver(given, pixel, make, periodic, rtol)
@@ -130,7 +126,7 @@ def press_maps(
 
 def _by_masks(
     space: Space,
-    given: _Given,
+    given: GivenMaps,
     pixel_size: tuple[float, float],
     make: SymbolMaker,
     periodic: Edges,
@@ -139,7 +135,7 @@ def _by_masks(
     """Solve all maps at once, on their device."""
     xp, h = space.xp, given.heights
     operators = nested_operators(space, make, h.shape[-2:], pixel_size, periodic)
-    _refuse_closed_gap(xp, given, periodic, operators[0].uniform)
+    refuse_closed_gap(space, given, periodic, operators[0].uniform)
     loads = (given.mean_pressure, given.rigid_approach, given.bound)
     problem = pose_maps(space, h, operators[0].self_influence, *loads)
     done = solve_nested(space, operators, problem, rtol, MOST_ITERATIONS)
@@ -156,7 +152,7 @@ def _by_masks(
 
 
 def _by_contact_solver(
-    given: _Given,
+    given: GivenMaps,
     pixel_size: tuple[float, float],
     make: SymbolMaker,
     periodic: Edges,
@@ -165,7 +161,6 @@ def _by_contact_solver(
     """Solve maps of numpy one after the other; one plan and one set of transforms."""
     n, ny, nx = given.heights.shape
     solver = ContactSolver((ny, nx), pixel_size, make, periodic)
-    _refuse_closed_gap(np, given, periodic, solver.uniform_compliance)
     pressure, displacement = np.zeros((n, ny, nx)), np.zeros((n, ny, nx))
     numbers, dtype = np.zeros((4, n)), given.heights.dtype
 
@@ -209,127 +204,3 @@ def _check_all(space: Space, found: MapsResult, rtol: float) -> None:
         "their solver knows stiff films better",
         found,
     )
-
-
-# What is given ----------------------------------------------------------------------------------
-
-
-def _tolerance(space: Space, rtol: float | None) -> float:
-    if rtol is None:
-        return RTOL if space.epsilon < 1e-10 else RTOL_SINGLE
-    least = 10.0 * space.epsilon
-    if not (math.isfinite(rtol) and rtol >= least):
-        raise DescriptionError(
-            "press_maps(rtol)", rtol, f"be finite, and at least {least:.2g} in this precision"
-        )
-    return float(rtol)
-
-
-def _checked_solid(stack: Any) -> Solid:
-    if not isinstance(stack, Solid):
-        raise DescriptionError(
-            "press_maps(stack)", stack, "be a Stack or a Material: the solid of the flat"
-        )
-    return stack
-
-
-def _checked(
-    space: Space, heights: Any, mean_pressure: Any, approach: Any, hardness: Any
-) -> _Given:
-    xp, h = space.xp, _as_array(space, heights, "heights", "m")
-    if h.ndim < 2 or min(h.shape[-2:]) < 2 or 0 in h.shape:
-        raise DescriptionError(
-            "press_maps(heights)", tuple(h.shape), "be maps of at least 2 x 2 pixels"
-        )
-    if isinstance(heights, np.ma.MaskedArray):
-        raise DescriptionError(
-            "press_maps(heights)", "a masked array", "have no mask; holes: a hardness of 0 there"
-        )
-    if not bool(xp.all(xp.isfinite(h))):
-        raise DescriptionError("press_maps(heights)", "nan or inf", "be finite", unit="m")
-    if (mean_pressure is None) == (approach is None):
-        raise DescriptionError(
-            "press_maps(mean_pressure, approach)",
-            (mean_pressure, approach),
-            "be given one without the other",
-        )
-    leading, maps = tuple(h.shape[:-2]), tuple(h.shape)
-    h = xp.reshape(h, (-1, *maps[-2:]))
-    bound = None if hardness is None else _bound(space, hardness, maps)
-    if approach is not None:
-        depth = _per_map(space, approach, leading, "approach", "m")
-        return _Given(h, None, first_touch(space, h) + depth, bound, leading)
-    load = _per_map(space, mean_pressure, leading, "mean_pressure", "Pa")
-    _check_loads(space, load, bound)
-    return _Given(h, load, None, bound, leading)
-
-
-def _as_array(space: Space, values: Any, name: str, unit: str) -> Any:
-    try:
-        if isinstance(values, str):
-            values = number_of(values, unit, name, "press_maps")
-        return space.take(values)
-    except (TypeError, ValueError) as error:
-        if isinstance(error, DescriptionError):
-            raise
-        raise DescriptionError(
-            f"press_maps({name})", type(values), "be a number or an array of them", unit=unit
-        ) from None
-
-
-def _per_map(space: Space, values: Any, leading: tuple[int, ...], name: str, unit: str) -> Any:
-    """One number for each map, (n, 1, 1)."""
-    xp, found = space.xp, _as_array(space, values, name, unit)
-    if not bool(xp.all(xp.isfinite(found))):
-        raise DescriptionError(f"press_maps({name})", "nan or inf", "be finite", unit=unit)
-    try:
-        found = xp.broadcast_to(found, leading)
-    except (ValueError, RuntimeError):
-        raise DescriptionError(
-            f"press_maps({name})", tuple(found.shape), f"be a number, or an array {leading}"
-        ) from None
-    return xp.reshape(found, (-1, 1, 1))
-
-
-def _bound(space: Space, hardness: Any, maps: tuple[int, ...]) -> Any:
-    """Upper bound, (n or 1, ny or 1, nx or 1)."""
-    xp, bound = space.xp, _as_array(space, hardness, "hardness", "Pa")
-    if bound.ndim and tuple(bound.shape) not in (maps, maps[-2:]):
-        raise DescriptionError(
-            "press_maps(hardness)",
-            tuple(bound.shape),
-            f"be a number, or an array {maps[-2:]} or {maps}",
-            unit="Pa",
-        )
-    if not bool(xp.all(bound >= 0.0)):
-        raise DescriptionError("press_maps(hardness)", "a value", "be 0 or positive", unit="Pa")
-    return xp.reshape(bound, (-1, *maps[-2:]) if bound.ndim else (1, 1, 1))
-
-
-def _check_loads(space: Space, load: Any, bound: Any) -> None:
-    xp = space.xp
-    if bool(xp.any(load < 0.0)):
-        raise DescriptionError(
-            "press_maps(mean_pressure)", float(xp.min(load)), "be 0 or positive", unit="Pa"
-        )
-    if bound is None:
-        return
-    carried = xp.mean(bound, axis=(-2, -1), keepdims=True)
-    missing = load - carried * (1.0 + max(1e-12, 10.0 * space.epsilon))
-    if bool(xp.any(missing > 0.0)):
-        raise InfeasibleError(
-            f"a mean pressure of {float(xp.max(load)):.6g} Pa exceeds what the hardness can carry, "
-            f"{float(xp.min(carried)):.6g} Pa over a whole map"
-        )
-
-
-def _refuse_closed_gap(xp: Any, given: _Given, periodic: Edges, uniform: float) -> None:
-    """No load closes the whole gap of a periodic map whose mean displacement is zero."""
-    if given.rigid_approach is None or given.bound is not None or periodic is not True or uniform:
-        return
-    mean = xp.mean(given.heights, axis=(-2, -1), keepdims=True)
-    if bool(xp.any(given.rigid_approach + mean >= 0.0)):
-        raise InfeasibleError(
-            "an approach reaches the mean plane of its map, where the gap of a periodic map is "
-            "closed under any load; prescribe the load instead"
-        )

@@ -1,8 +1,8 @@
 """The dimensionless contact problem of many maps.
 
-Minimise ``p'Gp/2 - h'p`` over ``0 <= p <= upper`` for each map, with the sum of its pressures or its
-rigid-body approach prescribed. Each map has its own units: its rms height, and the pressure that
-displaces a pixel by it.
+Minimise ``p'Gp/2 - h'p`` over ``0 <= p <= upper`` for each map, with the sum of its pressures or
+its rigid-body approach prescribed. Each map has its own units: its rms height, and the pressure
+that displaces a pixel by it.
 
 Sign convention: pressure, heights and displacement positive into the solid; ``u - h - approach`` is
 the gap.
@@ -17,8 +17,7 @@ from .namespace import Space
 
 __all__ = ["MapsProblem", "balanced", "first_touch", "pose_maps", "restricted"]
 
-SMALLEST = 1e-140  # rms height [m] whose square underflows; in single precision its square root
-DOUBLE = 2.220446049250313e-16
+DOUBLE = 2.220446049250313e-16  # round-off that `ROUNDED` is made of
 
 
 class MapsProblem(NamedTuple):
@@ -26,7 +25,8 @@ class MapsProblem(NamedTuple):
 
     heights : (n, ny, nx), of zero mean; load, approach : one of them, None for the other
     upper : (n or 1, ny or 1, nx or 1) bounds; None for none
-    rms : 1, or 0 of flat heights; flat : displacement of a pixel under the mean pressure, at least 1
+    rms : 1, or 0 of flat heights
+    flat : displacement of a pixel under the mean pressure, at least 1
     length, pressure, datum : units [m], [Pa] and the mean height [m] that was taken off
     """
 
@@ -82,12 +82,13 @@ def pose_maps(
     datum = xp.mean(heights, axis=(-2, -1), keepdims=True)
     h = heights - datum
     h = h - xp.mean(h, axis=(-2, -1), keepdims=True)
-    rms = xp.sqrt(xp.mean(h * h, axis=(-2, -1), keepdims=True))
-    zero = xp.zeros_like(rms)
+    largest = space.highest(xp.abs(h))
+    zero = xp.zeros_like(largest)
+    one = h / xp.where(largest > 0.0, largest, zero + 1.0)  # squares of nanometres underflow
+    rms = largest * xp.sqrt(xp.mean(one * one, axis=(-2, -1), keepdims=True))
     pressed = zero if mean_pressure is None else self_influence * mean_pressure
     rounded = ROUNDED * space.epsilon / DOUBLE * xp.maximum(space.highest(xp.abs(heights)), pressed)
-    smallest = SMALLEST if space.epsilon < 1e-10 else SMALLEST**0.25
-    is_flat = rms <= xp.maximum(rounded, zero + smallest)
+    is_flat = rms <= rounded
     only = pressed if rigid_approach is None else xp.abs(rigid_approach + datum)
     length = xp.where(is_flat, xp.where(only > 0.0, only, zero + 1.0), rms)
     unit = length / self_influence

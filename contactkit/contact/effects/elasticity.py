@@ -19,7 +19,14 @@ if TYPE_CHECKING:
     from ...scene.window import Axis, Grid
     from .base import Map, SolvedContact, SymbolMaker
 
-__all__ = ["HalfSpace", "LayeredHalfSpace", "bodies_of", "contact_modulus", "layers_of", "symbol_maker"]
+__all__ = [
+    "HalfSpace",
+    "LayeredHalfSpace",
+    "bodies_of",
+    "contact_modulus",
+    "layers_of",
+    "symbol_maker",
+]
 
 _ROUND_OFF = 1e-9  # of the eigenvalues of a compliance
 _DEEPEST = 0.1  # displacement over thickness
