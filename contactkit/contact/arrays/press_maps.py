@@ -174,7 +174,7 @@ def _by_contact_solver(
             given.heights[i].astype(np.float64),
             mean_pressure=None if load is None else float(load.item()),
             rigid_approach=None if approach is None else float(approach.item()),
-            bound=None if bound is None else np.broadcast_to(bound, (ny, nx)),
+            bound=bound.item() if bound is not None and bound.size == 1 else bound,
             rtol=rtol,
         )
         pressure[i], displacement[i] = s.pressure, s.displacement
