@@ -88,6 +88,7 @@ class Transfer:
 
     Examples
     --------
+    >>> import numpy as np
     >>> from .namespace import space_of
     >>> maps = np.array([[[1.0, 3.0, 5.0, 7.0]] * 2])
     >>> pair = Transfer(space_of(maps), (2, 4), (1, 2))
