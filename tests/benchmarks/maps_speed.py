@@ -73,7 +73,7 @@ def row(libraries: list[str], heights: np.ndarray, load: float, periodic: bool, 
     count = heights.shape[0] if heights.ndim == 3 else 1
     for library in libraries:
         kind = "float64" if library == "numpy" else precision
-        spent, found = seconds(given_to(library, heights, kind), load, periodic)
+        taken, found = seconds(given_to(library, heights, kind), load, periodic)
         p = host(found.pressure)
         known = p if known is None else known
         off = float(np.abs(p - known).max() / known.max())
@@ -81,7 +81,7 @@ def row(libraries: list[str], heights: np.ndarray, load: float, periodic: bool, 
         print(  # noqa: T201
             f"{count:5d} x {heights.shape[-1]:4d}^2  {'periodic' if periodic else 'isolated'}  "
             f"p = {load:.0e} Pa  area {float(host(found.contact_fraction).mean()):.3f}  "
-            f"{library:10s} {kind}  {spent:8.3f} s  {spent / count * 1e3:9.3f} ms a map  "
+            f"{library:10s} {kind}  {taken:8.3f} s  {taken / count * 1e3:9.3f} ms a map  "
             f"applications {steps.mean():.0f} (at most {steps.max()})  off {off:.0e}",
             flush=True,
         )

@@ -94,7 +94,7 @@ class MapsIteration:
     @property
     def pressure(self) -> Any:
         """Pressures within the bounds."""
-        return self._clipped(self.t)
+        return self._bounded(self.t)
 
     @property
     def gap(self) -> Any:
@@ -135,7 +135,7 @@ class MapsIteration:
             return inside
         return inside - (self.space.total(inside) / self.n_free) * self.on
 
-    def _clipped(self, t: Any) -> Any:
+    def _bounded(self, t: Any) -> Any:
         xp, upper = self.space.xp, self.problem.upper
         t = xp.maximum(t, self.zero)
         return t if upper is None else xp.minimum(t, upper)
@@ -300,7 +300,7 @@ class MapsIteration:
         load = self.problem.load
         if load is None:
             return self.running
-        missing = self.space.xp.abs(self.space.total(self._clipped(self.t)) - load)
+        missing = self.space.xp.abs(self.space.total(self._bounded(self.t)) - load)
         return missing <= max(1e-12, 100.0 * self.space.epsilon) * load
 
     def _grade_the_rest(self) -> None:
@@ -309,6 +309,6 @@ class MapsIteration:
         if not bool(xp.any(self.running)):
             return
         made = balanced(self.space, self.t, self.free, self.problem)
-        self.t = xp.where(self.running, self._clipped(made), self.t)
+        self.t = xp.where(self.running, self._bounded(made), self.t)
         self.evaluating = self.running
         self._evaluate(self.operator.displace(self.t))

@@ -15,7 +15,7 @@ __all__ = ["Space", "space_of"]
 
 @frozen(eq=False)
 class Space:
-    """Where the maps are: namespace of the array API, device, and precision.
+    """Space of the maps: namespace of the array API, device, and precision.
 
     Parameters
     ----------

@@ -110,8 +110,8 @@ def pose_maps(
 def balanced(space: Space, p: Any, free: Any, problem: MapsProblem) -> Any:
     """Pressures within the bounds whose sum is the load, from any.
 
-    Clipped, then those between the bounds scaled; where none is, what is missing is spread evenly
-    over the `free` pixels. One that exceeds its bound by this is clipped the next time.
+    Truncated, then those between the bounds scaled; where none is, what is missing is spread evenly
+    over the `free` pixels. One that exceeds its bound by this is truncated the next time.
     """
     xp, load, upper = space.xp, problem.load, problem.upper
     zero = xp.zeros_like(p)

@@ -1,4 +1,4 @@
-"""What pressing maps gives: arrays of the namespace and on the device of the heights."""
+"""Result of pressing maps: arrays of the namespace and on the device of the heights."""
 
 from __future__ import annotations
 

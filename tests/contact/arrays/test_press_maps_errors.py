@@ -1,4 +1,4 @@
-"""What `press_maps` refuses, and how it says so."""
+"""Refusals of `press_maps` and their messages."""
 
 from __future__ import annotations
 
