@@ -36,7 +36,7 @@ REDUCTIONS = ((0.05, 0.1), (0.01, 0.05), (0.0, 0.015))
 # Of the reduction, at each set that did not halve the violation. Under a film of 100 times the
 # modulus a fixed reduction never found the set on 256 x 256 pixels; with this even 1e6 times does.
 TIGHTER, TIGHTEST = 0.3, 1e-3
-LEAST_REDUCTION = 1e-5
+LEAST_REDUCTION = 1e-5  # below, round-off of the recurrences decides
 CAUTIOUS_AFTER = 1  # sets without progress after which only the worst pixels join
 WORST = 0.8  # violation of those, over the largest; 0.3 takes the same
 SAFETY = 0.3  # of the tolerance, at which the linear equations are solved
