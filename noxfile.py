@@ -8,6 +8,8 @@ import nox
 ROOT = Path(__file__).parent
 QUICK = ("tests/app", "tests/capillary", "tests/contact", "tests/elasticity", "tests/separation")
 OLDEST = (
+    "array-api-compat==1.11",
+    "array-api-strict==2.3",
     "attrs==24.2.0",  # of fmpy; without it 23.2.0 will do
     "cattrs==23.2.1",
     "click==8.1.0",

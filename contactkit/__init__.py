@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from .analyses.stick_slip import SpringSlider, stick_slip
     from .as_published.lookup import PUBLISHED, published
     from .citing.cite import cite
+    from .contact.arrays.press_maps import press_maps
     from .contact.discretisation import discretisation_error
     from .contact.effects.adhesion import Adhesion
     from .contact.effects.attraction_laws import (
@@ -331,6 +332,7 @@ _HOMES = {
     "plan": "planning",
     "plan_study": "studies.estimate",
     "press": "contact.press",
+    "press_maps": "contact.arrays.press_maps",
     "published": "as_published.lookup",
     "pull_off_curve": "analyses.pull_off",
     "modulus_curve": "analyses.deforming.modulus",
@@ -505,6 +507,7 @@ __all__ = [
     "plan",
     "plan_study",
     "press",
+    "press_maps",
     "published",
     "pull_off_curve",
     "pull_off_over_speed",

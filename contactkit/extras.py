@@ -12,6 +12,7 @@ _EXTRAS = {
     "PIL": "plot",
     "SurfaceTopography": "maps",
     "afmformats": "afm",
+    "array_api_compat": "arrays",
     "distributed": "dask",
     "ducc0": "fast",
     "emcee": "posterior",

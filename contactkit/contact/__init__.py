@@ -1,6 +1,7 @@
 """Contact of rough layered surfaces: plan, solve, result.
 
 press          Contact of a height map given as an array.
+arrays         Contact of many maps at once, of any array library.
 grid           Heights of surfaces on a grid, and the grid of a scene.
 prepared       Preparation of a plan, done once: heights, compliance and solver.
 plan           Plan of a contact: checked and prepared.

@@ -30,7 +30,7 @@ from .solve import solve_unwarned
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["press"]
+__all__ = ["number_of", "pixel_size_of", "press"]
 
 
 def press(
@@ -117,13 +117,13 @@ def press(
     effects: list[ContactEffect[Any]] = [LayeredHalfSpace() if layered else HalfSpace()]
     if hardness is not None:
         is_map = np.ndim(hardness) > 0
-        given = HardnessMap(hardness) if is_map else _number(hardness, "Pa", "hardness")
+        given = HardnessMap(hardness) if is_map else number_of(hardness, "Pa", "hardness")
         effects.append(HardnessLimit(rule=ConstantHardness(hardness=given)))
     surface = _level(_surface(heights, pixel_size), detrend)
     scene = ContactScene(
         interface=Interface(lower=Body(solid=stack), upper=Body(surface=surface)),
         window=Window(periodic=periodic),
-        loading=Pressing(pressure=_number(mean_pressure, "Pa", "mean_pressure")),
+        loading=Pressing(pressure=number_of(mean_pressure, "Pa", "mean_pressure")),
         effects=tuple(effects),
     )
     result = solve_unwarned(plan_contact(scene, Accuracy(rtol=rtol, threads=threads)))
@@ -132,22 +132,36 @@ def press(
     return evolve(result, message=f"{result.message}{said}")
 
 
-def _number(given: Any, unit: str, name: str) -> float:
-    """Take numbers of numpy as well as Python's, and texts with a unit."""
+def number_of(given: Any, unit: str, name: str, of: str = "press") -> float:
+    """Take numbers of numpy as well as Python's, and texts with a unit.
+
+    Examples
+    --------
+    >>> number_of("2 um", "m", "pixel_size")
+    2e-06
+    """
     value = given if isinstance(given, str) else float(given)
-    return parse_quantity(value, unit, f"press({name})")
+    return parse_quantity(value, unit, f"{of}({name})")
 
 
-def _size(given: Any) -> float | tuple[float, float]:
-    """Size of a pixel [m], or of (dy, dx)."""
+def pixel_size_of(given: Any, of: str = "press") -> float | tuple[float, float]:
+    """Size of a pixel [m], or of (dy, dx).
+
+    Examples
+    --------
+    >>> pixel_size_of(("1 um", 2e-6))
+    (1e-06, 2e-06)
+    """
     if np.ndim(given) == 0:
-        return _number(given, "m", "pixel_size")
-    return tuple(_number(one, "m", "pixel_size") for one in given)  # type: ignore[return-value]
+        return number_of(given, "m", "pixel_size", of)
+    return tuple(number_of(one, "m", "pixel_size", of) for one in given)  # type: ignore[return-value]
 
 
 def _surface(heights: Any, pixel_size: Any) -> Heights:
     if not is_topography(heights):
-        size: Any = None if pixel_size is None else _size(pixel_size)  # None is refused there
+        size: Any = None  # refused there
+        if pixel_size is not None:
+            size = pixel_size_of(pixel_size)
         return Heights(heights=heights, pixel_size=size)
     if pixel_size is not None:
         raise DescriptionError(

@@ -1,5 +1,7 @@
 """Real two-dimensional transforms behind one small interface: scipy.fft always, ducc0 if installed.
 
+`convolution_of` is the same for other array libraries.
+
 A back end multiplies the spectrum of a map by a real symbol and transforms back. The free case
 never stores the zero rows of the padded map: rows are padded and transformed first, then columns.
 Signs do not matter here: the symbols are real and even.
@@ -19,6 +21,7 @@ from numpy.typing import NDArray
 __all__ = [
     "Edges",
     "Transform",
+    "convolution_of",
     "fast_transforms_installed",
     "make_transform",
     "scale_spectrum",
@@ -276,3 +279,41 @@ def make_transform(
         transform = _ducc_pitched if collides else _ducc_periodic
         return transform(symbol, threads, scale, spectrum, shape[1])
     return _scipy_transform(symbol, periodic, threads, scale, spectrum)
+
+
+def convolution_of(
+    xp: Any, symbol: Any, shape: tuple[int, int], periodic: Edges
+) -> Callable[[Any], Any]:
+    """Give a function that convolves the last two axes of any array, as a new array.
+
+    The seam for other array libraries, and for many maps at once: scipy transforms arrays of numpy,
+    the namespace those of its own, on their device.
+
+    Parameters
+    ----------
+    xp : module
+        Namespace of the arrays, of the Python array API standard.
+    symbol : array
+        Real symbol on the half spectrum, as of `make_transform`; its dtype is the precision.
+    shape : tuple of int
+        Pixels ``(ny, nx)`` of each map.
+    periodic : bool, "x" or "y"
+        Whether the maps repeat, or along which axis; across it they are padded.
+
+    Examples
+    --------
+    >>> convolve = convolution_of(np, np.full((4, 3), 2.0), (4, 4), periodic=True)
+    >>> convolve(np.ones((2, 5, 4, 4))).max()
+    np.float64(2.0)
+    """
+    (ny, nx), rows = shape, symbol.shape[0]
+    width = nx if periodic in (True, "x") else 2 * nx
+    fft: Any = scipy.fft if xp is np else xp.fft
+
+    def convolve(maps: Any) -> Any:
+        # Rows, then columns: the zero rows of padded maps are never transformed.
+        waves = fft.fft(fft.rfft(maps, n=width, axis=-1), n=rows, axis=-2)
+        waves = fft.ifft(waves * symbol, n=rows, axis=-2)[..., :ny, :]
+        return fft.irfft(waves, n=width, axis=-1)[..., :nx]
+
+    return convolve

@@ -33,6 +33,7 @@ SLOW = (
     "studies",
     "figures",
     "fit",
+    "many-maps",
     "gradients",
     "separation",
     "contact",
@@ -69,6 +70,8 @@ def test_python_runs(page, elsewhere, capsys, request):
     if "fmu" in page.name:
         pytest.importorskip("fmpy")
         request.getfixturevalue("kernels_compiled_once")
+    if page.stem == "many-maps":
+        pytest.importorskip("torch")
     names = {"__name__": page.stem}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ck.ValidityWarning)  # the pages say that they come

@@ -20,7 +20,14 @@ if TYPE_CHECKING:
     from ...scene.window import Axis, Grid
     from .base import Map, SolvedContact, SymbolMaker
 
-__all__ = ["HalfSpace", "LayeredHalfSpace", "bodies_of", "contact_modulus", "layers_of"]
+__all__ = [
+    "HalfSpace",
+    "LayeredHalfSpace",
+    "bodies_of",
+    "contact_modulus",
+    "layers_of",
+    "symbol_maker",
+]
 
 _ROUND_OFF = 1e-9  # of the eigenvalues of a compliance
 _DEEPEST = 0.1  # displacement over thickness
@@ -60,7 +67,7 @@ class HalfSpace(Compliance):
 
     def prepare(self, scene: ContactScene, grid: Grid) -> tuple[SymbolMaker, ...]:
         """See `Compliance.prepare`."""
-        return tuple(_maker(stack, grid) for stack in scene.interface.stacks)
+        return tuple(symbol_maker(stack, grid) for stack in scene.interface.stacks)
 
 
 @frozen(kw_only=True)
@@ -95,7 +102,7 @@ class LayeredHalfSpace(Compliance):
 
     def prepare(self, scene: ContactScene, grid: Grid) -> tuple[SymbolMaker, ...]:
         """See `Compliance.prepare`."""
-        return tuple(_maker(stack, grid) for stack in scene.interface.stacks)
+        return tuple(symbol_maker(stack, grid) for stack in scene.interface.stacks)
 
     def validity(self, contact: SolvedContact, part: None) -> tuple[ValidityNumber, ...]:
         """See `ContactEffect.validity`."""
@@ -176,7 +183,8 @@ def bodies_of(interface: Interface) -> tuple[Layers | None, Layers | None]:
     )
 
 
-def _maker(stack: Stack, grid: Grid) -> SymbolMaker:
+def symbol_maker(stack: Stack, grid: Grid) -> SymbolMaker:
+    """Return what makes the symbol of a solid on any grid of a window."""
     if grid.along:
         return partial(
             _along_one_axis, layers=layers_of(stack), along=grid.along, finest=grid.shape

@@ -12,7 +12,7 @@ import numpy as np
 import scipy.sparse
 from numpy.typing import NDArray
 
-__all__ = ["block_shape", "nested_shapes", "prolong", "restrict"]
+__all__ = ["averaging_weights", "block_shape", "nested_shapes", "prolong", "restrict"]
 
 Floats = NDArray[np.float64]
 Shape = tuple[int, int]
@@ -69,7 +69,7 @@ def block_shape(shape: Shape, pixel_size: tuple[float, float], pixels: float = 8
 
 
 @functools.lru_cache(maxsize=64)
-def _weights(fine: int, coarse: int) -> scipy.sparse.csr_array:
+def averaging_weights(fine: int, coarse: int) -> scipy.sparse.csr_array:
     """Weight of each fine pixel in the average of each coarse one, ``(coarse, fine)``."""
     edges = np.union1d(np.arange(fine + 1) / fine, np.arange(coarse + 1) / coarse)
     edges = edges[np.append(True, np.diff(edges) > 1e-12)]
@@ -96,8 +96,8 @@ def restrict(fine: Floats, shape: Shape) -> Floats:
     if fine.shape == (2 * shape[0], 2 * shape[1]):
         rows = fine[0::2] + fine[1::2]
         return 0.25 * (rows[:, 0::2] + rows[:, 1::2])
-    rows = _weights(fine.shape[0], shape[0]) @ fine
-    return np.ascontiguousarray((_weights(fine.shape[1], shape[1]) @ rows.T).T)
+    rows = averaging_weights(fine.shape[0], shape[0]) @ fine
+    return np.ascontiguousarray((averaging_weights(fine.shape[1], shape[1]) @ rows.T).T)
 
 
 def prolong(coarse: Floats, shape: Shape) -> Floats:
@@ -110,6 +110,6 @@ def prolong(coarse: Floats, shape: Shape) -> Floats:
     """
     if shape == (2 * coarse.shape[0], 2 * coarse.shape[1]):
         return np.repeat(np.repeat(coarse, 2, axis=0), 2, axis=1)
-    rows = _weights(shape[0], coarse.shape[0]).T @ coarse * (shape[0] / coarse.shape[0])
-    wide = _weights(shape[1], coarse.shape[1]).T @ rows.T * (shape[1] / coarse.shape[1])
+    rows = averaging_weights(shape[0], coarse.shape[0]).T @ coarse * (shape[0] / coarse.shape[0])
+    wide = averaging_weights(shape[1], coarse.shape[1]).T @ rows.T * (shape[1] / coarse.shape[1])
     return np.ascontiguousarray(wide.T)
