@@ -21,7 +21,7 @@ __all__ = ["cite"]
 def cite(
     what: str, settings: tuple[str, ...], bibtex: bool, out: Path | None, overwrite: bool
 ) -> None:
-    """Print the works to cite: of effects, methods, materials and liquids in use.
+    """Print the works to cite for a scene or a result.
 
     SCENE is a scene file or the name of a scene of contactkit, a result file, or the folder of one.
     """
