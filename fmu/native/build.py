@@ -72,8 +72,8 @@ def build_native(
 ) -> Path:
     """Write an FMU of any scene that runs without Python.
 
-    It is for co-simulation; a ``stiction-force`` of rigid bodies also for model exchange, unless its
-    film remembers a cavity (``dp_inception`` above 0).
+    It is for co-simulation; a ``stiction-force`` of rigid bodies also for model exchange, unless
+    its film remembers a cavity (``dp_inception`` above 0).
 
     Parameters
     ----------

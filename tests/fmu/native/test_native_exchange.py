@@ -1,4 +1,4 @@
-"""Model exchange of the native ``stiction-force``: a host that integrates, its events, its slopes."""
+"""Model exchange of the native ``stiction-force``: a host that integrates, events, slopes."""
 
 from __future__ import annotations
 
