@@ -342,17 +342,27 @@ static const char *obstacle(const ck_model *model) {
     return NULL;
 }
 
-/* Distance to the nearest kink over the gap, with a sign that changes there. */
+/* Whether a law that acts before this one has the same kink: laws share those of the film's shape. */
+static int is_shared(const ck_acting *acting, int law, double kink) {
+    int i, k;
+    for (i = 0; i < law; i++)
+        for (k = 0; acting->acts[i] && k < acting->film->laws[i].n_kinks; k++)
+            if (fabs(acting->film->laws[i].kinks[k] / kink - 1.0) <= SAME) return 1;
+    return 0;
+}
+
+/* Distance to the nearest kink over its gap, with a sign that changes at each. */
 static double kinks(const ck_acting *acting, double gap) {
-    double nearest = HUGE_VAL;
-    int i, k, below = 0;
+    double nearest = 1.0;
+    int i, k, odd = 0;
     for (i = 0; i < acting->film->n_laws; i++)
         for (k = 0; acting->acts[i] && k < acting->film->laws[i].n_kinks; k++) {
             double kink = acting->film->laws[i].kinks[k];
-            below ^= kink < gap;
+            if (is_shared(acting, i, kink)) continue;
+            odd ^= kink < gap;
             nearest = fmin(nearest, fabs(gap / kink - 1.0));
         }
-    return fmin(nearest, 1.0) * (below ? 1.0 : -1.0);
+    return odd ? nearest : -nearest;
 }
 
 /* Gap over that of an event less 1; 1 where there is no such event below, -1 where none above. */
