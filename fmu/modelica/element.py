@@ -1,4 +1,4 @@
-"""What an FMU is in a mechanical model: its variables by their roles, and the signs of its force.
+"""Parts of a mechanical model: an FMU's variables by their roles, and the signs of its force.
 
 A force element gives a force for the motion of its two flanges. Modelica's `PartialCompliant` has
 ``s_rel = flange_b.s - flange_a.s`` and a force ``f`` that is positive where the element pulls its

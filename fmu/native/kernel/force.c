@@ -385,7 +385,7 @@ static void indicate(const ck_model *model, double found[CK_INDICATORS]) {
 }
 
 /* Events at the gap where the host stopped. */
-static void happen(ck_model *model) {
+static void apply_events(ck_model *model) {
     ck_memory *memory = &model->state.memory;
     double gap = model->state.values[CK_H], breaks = model->state.values[CK_N_BREAK];
     memory->gap = gap;
@@ -393,6 +393,6 @@ static void happen(ck_model *model) {
     if (model->state.values[CK_N_BREAK] > breaks) tell(model);
 }
 
-static const ck_exchange exchange = {2, STATES, DERIVATIVES, obstacle, indicate, happen};
+static const ck_exchange exchange = {2, STATES, DERIVATIVES, obstacle, indicate, apply_events};
 
 const ck_kind ck_stiction_force = {apply, start, show, step, resolve, 1, slope, NULL, &exchange};

@@ -503,7 +503,7 @@ int ck_model_update(ck_model *model) {
     if (model->state.failed || !ck_model_is_in(model, CK_EVENT, "updateDiscreteStates"))
         return CK_ERROR;
     for (i = 0; i < CK_DISCRETE; i++) model->state.values[ck_discrete[i]] = model->state.latest[i];
-    if (model->exchanges) ck_model_kind(model)->exchange->happen(model);
+    if (model->exchanges) ck_model_kind(model)->exchange->apply_events(model);
     else if (ck_model_pends(model)) ck_model_kind(model)->resolve(model);
     model->state.event = model->state.shown = 0;
     ck_model_follow(model);

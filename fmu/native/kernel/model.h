@@ -113,13 +113,13 @@ typedef struct {
 
 /* Model exchange of a model: its continuous states and their derivatives, as variables in the order of
    the model description; why what was set has none, or NULL; event indicators, which change their sign
-   at events; and what happens at the motion where the host stopped for one. */
+   at events; and the events at the motion where the host stopped for one. */
 typedef struct {
     int n_states;
     const int *states, *derivatives;
     const char *(*obstacle)(const ck_model *model);
     void (*indicate)(const ck_model *model, double found[CK_INDICATORS]);
-    void (*happen)(ck_model *model);
+    void (*apply_events)(ck_model *model);
 } ck_exchange;
 
 /* What one of the models is made of. */

@@ -68,6 +68,8 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     own->wanted = logs ? CK_LOG_ALL : CK_LOG_ERROR; /* why it refuses is no debugging */
     own->model.say = say, own->model.host = own;
     if (!own->name || !name || !*name) say(own, CK_ERROR, "logStatusError", "the instance needs a name");
+    else if (type != fmi2CoSimulation && type != fmi2ModelExchange)
+        say(own, CK_ERROR, "logStatusError", "this FMU is for co-simulation or model exchange");
     else if (!guid || !resources || !ck_folder_of(resources, folder, sizeof folder))
         say(own, CK_ERROR, "logStatusError", "GUID or resource location is missing, or no file");
     else if (!ck_model_open(&own->model, folder, guid)) handle = NULL; /* it has said why */
