@@ -15,6 +15,6 @@ page            ``contactkit page``.
 app             ``contactkit app``.
 gallery         ``contactkit gallery``.
 lists           ``contactkit list``, ``new`` and ``schema``, which help to write a scene file.
-fmu             ``contactkit fmu build``, ``fmu system`` and ``fmu crosscheck``.
+fmu             ``contactkit fmu build``, ``fmu system``, ``fmu modelica`` and ``fmu crosscheck``.
 completion      ``contactkit completion``.
 """

@@ -1,4 +1,4 @@
-"""``contactkit fmu build``, ``contactkit fmu system`` and ``contactkit fmu crosscheck``."""
+"""``contactkit fmu build``, ``fmu system``, ``fmu modelica`` and ``fmu crosscheck``."""
 
 from __future__ import annotations
 
@@ -90,6 +90,21 @@ def system(scene: str, out: Path | None, native: bool, overwrite: bool) -> None:
     enter(path, "fmu system")
     kind = "both in C" if native else "both in Python"
     say(f"{path}: drive and mass, {kind}, {path.stat().st_size / 1024:.0f} KiB")
+
+
+@fmu.command(cls=options.Command)
+@click.argument("file", metavar="FILE.fmu", type=click.Path(path_type=Path))
+@options.file(".mo", "Modelica file to write; its name is that of the package.", required=True)
+@options.overwrite
+def modelica(file: Path, out: Path, overwrite: bool) -> None:
+    """Write a Modelica wrapper of an FMU, with flanges of the standard library."""
+    from ..app.output import check_file, enter
+    from ..fmu.modelica.package import write_modelica
+
+    check_file(out, ".mo", overwrite=overwrite)
+    path = write_modelica(file, out)
+    enter(path, "fmu modelica")
+    say(f"{path}: {path.stem}.Wrapper; redeclare its block Fmu as what your tool imports")
 
 
 @fmu.command(cls=options.Command)

@@ -5,6 +5,7 @@ description   The model description (FMI 2.0) of a table of ports, complete wher
               not.
 description3  The model description (FMI 3.0) of a table of ports, and the description of a build.
 instance      One FMU in fmpy, driven by the names of its variables.
+model_file    The model description of an FMU file, which is checked before it is read.
 places        Parameters of an FMU as fields of the scene behind it: one table for both directions.
 ports         Ports: what the variables of an FMU are called, mean, and may be.
 slave         `PortSlave`: an FMI 2.0 co-simulation slave whose variables are a table of ports.

@@ -26,7 +26,9 @@ __all__ = [
     "enumerations",
     "frame",
     "items",
+    "known",
     "model_description",
+    "states",
     "unit_definitions",
     "value_references",
 ]
@@ -39,6 +41,7 @@ _TAGS = {
 }
 
 
+_STEPS = "canHandleVariableCommunicationStepSize"  # of co-simulation alone
 _AUTHOR = "The contactkit authors"
 _COPYRIGHT = "Copyright (c) 2026, the contactkit authors"
 
@@ -57,6 +60,8 @@ class Description:
     experiment: Mapping[str, float] = field(factory=dict)
     version: str = ""
     needs_python: bool = False
+    indicators: Mapping[str, str] = field(factory=dict)
+    """Event indicators of model exchange, with their meaning; none: co-simulation only."""
 
 
 def value_references(ports: Sequence[Port]) -> dict[str, int]:
@@ -68,11 +73,16 @@ def model_description(about: Description) -> Element:
     """Root element of ``modelDescription.xml``."""
     able = _capabilities(about)
     root = frame(about, "2.0", able, unit_definitions(about.ports), _types(about.ports))
+    if about.indicators:
+        root.set("numberOfEventIndicators", str(len(about.indicators)))
+        kept = {name: value for name, value in able.items() if name != _STEPS}
+        exchange = Element("ModelExchange", kept | {"completedIntegratorStepNotNeeded": "true"})
+        root.insert(0, exchange)
     variables = SubElement(root, "ModelVariables")
     references = value_references(about.ports)
     for port in about.ports:
         variables.append(_variable(port, references, about.start))
-    root.append(_structure(about.ports))
+    root.append(_structure(about))
     return root
 
 
@@ -117,7 +127,7 @@ def _capabilities(about: Description) -> dict[str, str]:
     return {
         "modelIdentifier": about.identifier,
         "needsExecutionTool": _text(about.needs_python, "boolean"),
-        "canHandleVariableCommunicationStepSize": "true",
+        _STEPS: "true",
         "canBeInstantiatedOnlyOncePerProcess": "false",
         "canNotUseMemoryManagementFunctions": "true",
         "canGetAndSetFMUstate": "true",
@@ -214,20 +224,39 @@ def _text(value: str | Value, kind: Kind) -> str:
     return repr(float(value)).replace("inf", "INF") if kind == "real" else str(int(value))
 
 
-def _structure(ports: Sequence[Port]) -> Element:
-    structure = Element("ModelStructure")
+def states(about: Description) -> dict[str, str]:
+    """Continuous states of model exchange by the variables that are their derivatives."""
+    if not about.indicators:
+        return {}
+    return {port.name: port.rate_of for port in about.ports if port.rate_of is not None}
+
+
+def known(port: Port, about: Description, *, starts: bool) -> list[int] | None:
+    """Value references that an output depends on, at the start or later; None: any.
+
+    Parameters are no longer unknowns once the start is over, and a state is one of its own.
+    """
+    if port.depends_on is None:
+        return None
+    references = value_references(about.ports)
+    inputs = {port.name for port in about.ports if port.causality == "input"}
+    names = [name for name in port.depends_on if starts or name in inputs]
+    if not starts and port.name in states(about).values():
+        names = [port.name]
+    return sorted(references[name] for name in names)
+
+
+def _structure(about: Description) -> Element:
+    structure, ports = Element("ModelStructure"), about.ports
     references = value_references(ports)
-    inputs = {port.name for port in ports if port.causality == "input"}
     outputs = [port for port in ports if port.causality == "output"]
-    if not outputs:
-        return structure
-    for list_name in ("Outputs", "InitialUnknowns"):
-        unknowns = SubElement(structure, list_name)
-        for port in outputs:
+    derivatives = [port for port in outputs if port.name in states(about)]
+    lists = {"Outputs": outputs, "Derivatives": derivatives, "InitialUnknowns": outputs}
+    for name, members in lists.items():
+        unknowns = SubElement(structure, name) if members else structure
+        for port in members:
             node = SubElement(unknowns, "Unknown", index=str(references[port.name]))
-            if port.depends_on is not None:
-                # while stepping parameters are no longer unknowns, so only inputs count there
-                known = [n for n in port.depends_on if n in inputs or list_name != "Outputs"]
-                numbers = sorted(references[name] for name in known)
+            numbers = known(port, about, starts=name == "InitialUnknowns")
+            if numbers is not None:
                 node.set("dependencies", " ".join(map(str, numbers)))
     return structure

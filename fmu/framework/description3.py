@@ -16,6 +16,8 @@ from .description import (
     enumerations,
     frame,
     items,
+    known,
+    states,
     unit_definitions,
     value_references,
 )
@@ -38,6 +40,14 @@ _ABLE = (
     "mightReturnEarlyFromDoStep",
     "hasEventMode",
 )
+_STEPPING = {
+    "canHandleVariableCommunicationStepSize",
+    "mightReturnEarlyFromDoStep",
+    "hasEventMode",
+    "providesIntermediateUpdate",
+    "canReturnEarlyAfterIntermediateUpdate",
+}
+"""Attributes of co-simulation that model exchange does not have."""
 _UNABLE = (
     "needsExecutionTool",
     "canBeInstantiatedOnlyOncePerProcess",
@@ -47,10 +57,14 @@ _UNABLE = (
 
 
 def model_description3(about: Description) -> Element:
-    """Root element of ``modelDescription.xml`` for FMI 3.0, co-simulation."""
+    """Root element of ``modelDescription.xml`` for FMI 3.0."""
     able = {"modelIdentifier": about.identifier} | dict.fromkeys(_ABLE, "true")
     able |= dict.fromkeys(_UNABLE, "false")
     root = frame(about, "3.0", able, _units(about.ports), _types(about.ports))
+    if about.indicators:
+        kept = {name: value for name, value in able.items() if name not in _STEPPING}
+        exchange = Element("ModelExchange", kept | {"needsCompletedIntegratorStep": "false"})
+        root.insert(0, exchange)
     variables = SubElement(root, "ModelVariables")
     references = value_references(about.ports)
     for port in about.ports:
@@ -78,8 +92,25 @@ def model_description3(about: Description) -> Element:
         variability="continuous",
         unit="s",
     )
-    root.append(_structure(about.ports))
+    for reference, name, meaning in _indicators(about):
+        SubElement(
+            variables,
+            "Float64",
+            name=name,
+            valueReference=reference,
+            description=f"event indicator: {meaning}",
+            causality="local",
+            variability="continuous",
+            initial="calculated",
+        )
+    root.append(_structure(about))
     return root
+
+
+def _indicators(about: Description) -> list[tuple[str, str, str]]:
+    """Value reference, name and meaning of each event indicator; they come after the time."""
+    first = len(about.ports) + 2
+    return [(str(i), *one) for i, one in enumerate(about.indicators.items(), start=first)]
 
 
 def _units(ports: Sequence[Port]) -> Element:
@@ -98,20 +129,20 @@ def _types(ports: Sequence[Port]) -> Element:
     return definitions
 
 
-def _structure(ports: Sequence[Port]) -> Element:
+def _structure(about: Description) -> Element:
     structure = Element("ModelStructure")
-    references = value_references(ports)
-    inputs = {port.name for port in ports if port.causality == "input"}
-    for tag in ("Output", "InitialUnknown"):
+    references = value_references(about.ports)
+    outputs = [port for port in about.ports if port.causality == "output"]
+    derivatives = [port for port in outputs if port.name in states(about)]
+    lists = {"Output": outputs, "ContinuousStateDerivative": derivatives, "InitialUnknown": outputs}
+    for tag, ports in lists.items():
         for port in ports:
-            if port.causality != "output":
-                continue
             node = SubElement(structure, tag, valueReference=str(references[port.name]))
-            if port.depends_on is not None:
-                # parameters are known once initialization is over, so only inputs count then
-                known = [n for n in port.depends_on if n in inputs or tag != "Output"]
-                numbers = sorted(references[name] for name in known)
+            numbers = known(port, about, starts=tag == "InitialUnknown")
+            if numbers is not None:
                 node.set("dependencies", " ".join(map(str, numbers)))
+    for reference, _, _ in _indicators(about):
+        SubElement(structure, "EventIndicator", valueReference=reference)
     return structure
 
 

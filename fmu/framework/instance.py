@@ -12,7 +12,6 @@ import math
 import re
 import shutil
 import tempfile
-import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from numbers import Real
@@ -20,9 +19,8 @@ from pathlib import Path
 from typing import Any, ClassVar, Self
 
 from ...errors import ContactkitError, ConvergenceError, DescriptionError
-from ...reading.archives import checked_archive, member
-from ...reading.xml_elements import check_xml
 from ...units import parse_quantity
+from .model_file import read_model
 
 __all__ = ["Instance"]
 
@@ -285,20 +283,7 @@ def _whole(variable: Any, value: float | str) -> int:
 
 def _described(path: Path) -> Any:
     """Model description of a file that must be an FMU 2.0 for co-simulation."""
-    from fmpy import read_model_description
-
-    if not path.is_file():
-        raise DescriptionError("FMU", str(path), "be a file that is there")
-    if not zipfile.is_zipfile(path):
-        raise DescriptionError("FMU", str(path), "be an FMU, which is a zip archive")
-    _check_archive(path)
-    try:
-        with path.open("rb") as file:  # fmpy leaves one of its own open if the text is cut off
-            found = read_model_description(file)
-    except Exception as error:  # fmpy raises no narrower one
-        raise DescriptionError(
-            "FMU", str(path), "have a model description that can be read", hint=str(error)[:500]
-        ) from error
+    found = read_model(path)
     if found.fmiVersion != "2.0":
         hint = f"this is one of FMI {found.fmiVersion}: take the FMI 2 build"
         raise DescriptionError("FMU", str(path), "be an FMU of FMI 2.0", hint=hint)
@@ -308,11 +293,3 @@ def _described(path: Path) -> Any:
     if not _IDENTIFIER.fullmatch(name):  # part of the path of the library that is loaded
         raise DescriptionError("FMU modelIdentifier", name, "be an identifier of C")
     return found
-
-
-def _check_archive(path: Path) -> None:
-    """Refuse an FMU that leaves its folder when unpacked, or whose description is no plain XML."""
-    where = str(path)
-    with path.open("rb") as file, checked_archive(file, where) as packed:
-        text = member(packed, "modelDescription.xml", "TEXT_BYTES", where)
-    check_xml(text, f"{where}, modelDescription.xml")

@@ -38,7 +38,7 @@ from .data import contents_of, data_file, digest, guid_of
 from .deforming import DEFORMING, deforming_film, free_ports
 from .description import CATEGORIES, description_files
 from .film import FINE, moving, prepared_film
-from .models import native_model
+from .models import INDICATORS, native_model
 from .page import native_page
 from .ports import Model, check_free, native_ports
 from .records import Bodies, Faces, FilmTables, LiquidTable
@@ -70,7 +70,10 @@ def build_native(
     fmi: Literal[2, 3] = 2,
     film_rtol: float | None = None,
 ) -> Path:
-    """Write an FMU of any scene that runs without Python (co-simulation).
+    """Write an FMU of any scene that runs without Python.
+
+    It is for co-simulation; a ``stiction-force`` of rigid bodies also for model exchange, unless
+    its film remembers a cavity (``dp_inception`` above 0).
 
     Parameters
     ----------
@@ -183,6 +186,8 @@ def native_about(
         log_categories=CATEGORIES,
         experiment=model.slave.experiment,
         version=__version__,
+        # A cavity that remembers its history is no continuous state: co-simulation only.
+        indicators={} if not model.exchanges or start.get("dp_inception") else INDICATORS,
     )
 
 

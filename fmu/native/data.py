@@ -12,7 +12,7 @@ from attrs import frozen
 
 from ..framework.ports import Port, Value
 from .models import MODELS, VARIABLES, native_model
-from .record import Record, maybe, real, several, whole
+from .record import Record, maybe, positive, real, several, whole
 from .records import Bodies, Faces, FilmTables, LiquidTable
 
 __all__ = [
@@ -42,6 +42,7 @@ class Variable(Record):
     low: float = real("smallest value")
     high: float = real("largest value")
     start: float = real("value before anything was set")
+    nominal: float = positive("typical size, 1 if none is known")
     checked: ClassVar[bool] = True
 
 
@@ -97,6 +98,7 @@ def _variable(port: Port, start: Value) -> Variable:
         low=float(low),
         high=float(high),
         start=float(start),
+        nominal=1.0 if port.nominal is None else float(port.nominal),
     )
 
 

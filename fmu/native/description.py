@@ -46,14 +46,12 @@ def description_files(
         return {"modelDescription.xml": _text(root), "sources/buildDescription.xml": _text(build)}
     root = model_description(about)
     annotate_terminal(root, about.ports)
-    kind = _able(root, gives_rates)
-    kind.attrib |= {
-        "canInterpolateInputs": str(takes_rate).lower(),
-        "providesDirectionalDerivative": "true",
-    }
-    sources = SubElement(kind, "SourceFiles")
-    for name in compiled:
-        SubElement(sources, "File", name=name)
+    _able(root, gives_rates).set("canInterpolateInputs", str(takes_rate).lower())
+    for kind in (*root.iter("ModelExchange"), *root.iter("CoSimulation")):
+        kind.set("providesDirectionalDerivative", "true")
+        sources = SubElement(kind, "SourceFiles")
+        for name in compiled:
+            SubElement(sources, "File", name=name)
     return {"modelDescription.xml": _text(root)}
 
 

@@ -26,6 +26,7 @@ from .records import Bodies, Faces, FilmTables
 
 __all__ = [
     "DISCRETE",
+    "INDICATORS",
     "MODELS",
     "TEMPERATURE",
     "NativeModel",
@@ -50,6 +51,15 @@ TEMPERATURE = Port(
 """Variable of a film whose liquid has laws over the temperature."""
 
 
+INDICATORS: Mapping[str, str] = {
+    "z_film": "gap over that at which the film breaks, or wets the bodies again, less 1",
+    "z_solids": "gap over that at which the solids detach, or touch again, less 1",
+    "z_kink": "distance to the nearest gap at which a force is not smooth, over that gap",
+    "z_outputs": "-1 where state or limit have to change, else 1",
+}
+"""Event indicators of model exchange by their names, in their order in the kernel."""
+
+
 @frozen(kw_only=True)
 class NativeModel:
     """A model of the kernel: its variables, and what its file holds besides them."""
@@ -65,6 +75,9 @@ class NativeModel:
 
     takes_temperature: bool = False
     """Whether its liquid may follow its laws over the temperature."""
+
+    exchanges: bool = False
+    """Whether it has model exchange, with the event indicators of `INDICATORS`."""
 
     @property
     def identifier(self) -> str:
@@ -115,6 +128,7 @@ _ALL = (
         summary="Liquid film between two bodies: forces, impulses and doubts of coupling",
         has_film=True,
         takes_temperature=True,
+        exchanges=True,
     ),
     NativeModel(
         name="valve-drive",

@@ -18,7 +18,7 @@ from pathlib import Path
 from ...errors import DescriptionError
 from ..framework.toolchain import fmi_headers
 from .data import CAUSALITIES, TYPES, Contents
-from .models import DISCRETE, MODELS, VARIABLES, enumerations
+from .models import DISCRETE, INDICATORS, MODELS, VARIABLES, enumerations
 from .record import MOST_NODES, Column, Record, Several, Whole, c_name
 
 __all__ = ["description_sources", "kernel_sources", "layout"]
@@ -74,6 +74,7 @@ def _declarations() -> tuple[str, ...]:
         _enum("causalities of variables", CAUSALITIES),
         _enum("variables", _distinct([*VARIABLES, "variables"])),
         f"enum {{ CK_DISCRETE = {len(DISCRETE)} }}; /* outputs that change at events only */\n",
+        _enum("event indicators of model exchange", [*INDICATORS, "indicators"]),
         *(_members(one) for one in (*enumerations(), *_own_enumerations())),
         _enum("most of several members", {f"most_{name}": n for name, n in _mosts().items()}),
         "typedef struct ck_reader ck_reader;\n",

@@ -81,9 +81,9 @@ _GROUPS = {
 }
 
 
-def _of_mass(name: str, depends_on: tuple[str, ...] = ()) -> Port:
+def _of_mass(name: str, depends_on: tuple[str, ...] = (), rate_of: str | None = None) -> Port:
     """Output of ``stiction-mass``, which here follows other variables."""
-    return evolve(find_port(stiction_mass.PORTS, name), depends_on=depends_on)
+    return evolve(find_port(stiction_mass.PORTS, name), depends_on=depends_on, rate_of=rate_of)
 
 
 _PORTS = (
@@ -99,8 +99,8 @@ _PORTS = (
     ),
     input_port("v", "m/s", "opening speed there", nominal=0.1),
     _of_mass("F", _ALL),
-    _of_mass("F_m", _MENISCUS),
-    _of_mass("F_v", _VISCOUS),
+    _of_mass("F_m", _MENISCUS, rate_of="J_m"),
+    _of_mass("F_v", _VISCOUS, rate_of="J"),
     output_port("c", "N.s/m", "damping dF/dv", _VISCOUS, minimum=0.0, nominal=1e8),
     output_port("k", "N/m", "stiffness dF/dh", _ALL, nominal=1e7),
     _of_mass("J"),

@@ -90,6 +90,7 @@ COMMANDS = {
     "fmu build film.toml --native --out fmus/f.fmu": ("", set(), FMU),
     "fmu build stiction-mass --out fmus/f.fmu": ("", set(), FMU),
     "fmu system --out fmus/f.ssp": ("", set(), FMU),
+    "fmu modelica f.fmu --out fmus/F.mo": ("", set(), FMU),
     "fmu crosscheck --out fmus": ("", set(), FMU),
 }
 SCRIPT = """

@@ -175,7 +175,9 @@ static void misuse(void) {
     int i;
     expect(Instantiate(NULL, fmi2CoSimulation, guid, folder, NULL, 0, 1) == NULL, 1, "no name");
     expect(Instantiate("x", fmi2CoSimulation, "other", folder, &CALLBACKS, 0, 1) == NULL, 1, "GUID");
-    expect(Instantiate("x", fmi2ModelExchange, guid, folder, &CALLBACKS, 0, 1) == NULL, 1, "kind");
+    expect(Instantiate("x", (fmi2Type)7, guid, folder, &CALLBACKS, 0, 1) == NULL, 1, "kind");
+    c = Instantiate("x", fmi2ModelExchange, guid, folder, &CALLBACKS, 0, 1); /* NULL: it has none */
+    torment(c), FreeInstance(c), torment(c);
     expect(Instantiate("x", fmi2CoSimulation, guid, NULL, &CALLBACKS, 0, 1) == NULL, 1, "folder");
     expect(Instantiate("x", fmi2CoSimulation, guid, "file:///none%", &CALLBACKS, 0, 1) == NULL, 1, "path");
     torment(NULL), torment((fmi2Component)&force), torment((fmi2Component)(size_t)12345);

@@ -56,6 +56,10 @@ static int one(ck_model *model, int unknown, const ck_variable *known, double *s
     const ck_kind *kind = ck_model_kind(model);
     int starts = model->state.phase == CK_INITIALIZATION, id = known->id, done;
     *slope = 0.0;
+    if (model->exchanges && (ck_exchange_has_state(model, id) || ck_exchange_has_state(model, unknown))) {
+        *slope = unknown == id; /* a state follows itself alone, and nothing else follows it */
+        return CK_OK;
+    }
     if (known->causality == CK_OUTPUT) return refuse(model, unknown, id, "that is an output, too");
     if (known->causality == CK_PARAMETER && !starts)
         return refuse(model, unknown, id, "a parameter does not change any more");

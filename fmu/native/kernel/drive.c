@@ -264,4 +264,4 @@ static int slope(const ck_model *model, int unknown, int known, double *found) {
     return isfinite(*found);
 }
 
-const ck_kind ck_valve_drive = {apply, start, show, step, resolve, 1, slope, rate};
+const ck_kind ck_valve_drive = {apply, start, show, step, resolve, 1, slope, rate, NULL};

@@ -44,6 +44,8 @@ static int act_at(const ck_model *model, double gap, ck_acting *acting) {
     int broken = memory->broken, detached = memory->detached;
     ck_act(&model->scene, memory->film, broken, detached, acting);
     if (memory->pending) return broken; /* it shows what is there just before */
+    /* In model exchange the film stays as it is up to the event, so that the host sees no jump. */
+    if (model->exchanges && model->state.phase >= CK_STEPPING) return broken;
     if (!broken && gap >= acting->end * (1.0 - SAME)) broken = 1;
     if (!detached && gap >= acting->release * (1.0 - SAME)) detached = 1;
     if (broken != memory->broken || detached != memory->detached)
@@ -325,4 +327,72 @@ static void resolve(ck_model *model) {
     if (breaks) tell(model);
 }
 
-const ck_kind ck_stiction_force = {apply, start, show, step, resolve, 1, slope, NULL};
+/* Model exchange ------------------------------------------------------------------------------- */
+
+/* The states are the impulses: their derivatives are the forces, in the order of the variables. */
+static const int STATES[] = {CK_J_M, CK_J}, DERIVATIVES[] = {CK_F_M, CK_F_V};
+
+/* The liquid that a cavity has left behind is a history, which no few continuous states hold. */
+static const char *obstacle(const ck_model *model) {
+    int i;
+    for (i = 0; i < model->scene.tables->n_films; i++)
+        if (model->scene.laws[i].strength > 0.0)
+            return "dp_inception must be 0 in model exchange: a cavity remembers its history; take "
+                   "dp_cav instead, which truncates the pressure, or co-simulation";
+    return NULL;
+}
+
+/* Whether a law that acts before this one has the same kink: laws share those of the film's shape. */
+static int is_shared(const ck_acting *acting, int law, double kink) {
+    int i, k;
+    for (i = 0; i < law; i++)
+        for (k = 0; acting->acts[i] && k < acting->film->laws[i].n_kinks; k++)
+            if (fabs(acting->film->laws[i].kinks[k] / kink - 1.0) <= SAME) return 1;
+    return 0;
+}
+
+/* Distance to the nearest kink over its gap, with a sign that changes at each. */
+static double kinks(const ck_acting *acting, double gap) {
+    double nearest = 1.0;
+    int i, k, odd = 0;
+    for (i = 0; i < acting->film->n_laws; i++)
+        for (k = 0; acting->acts[i] && k < acting->film->laws[i].n_kinks; k++) {
+            double kink = acting->film->laws[i].kinks[k];
+            if (is_shared(acting, i, kink)) continue;
+            odd ^= kink < gap;
+            nearest = fmin(nearest, fabs(gap / kink - 1.0));
+        }
+    return odd ? nearest : -nearest;
+}
+
+/* Gap over that of an event less 1; 1 where there is no such event below, -1 where none above. */
+static double beyond(double gap, double event) {
+    if (!(event > 0.0)) return 1.0;
+    return event < HUGE_VAL ? gap / event - 1.0 : -1.0;
+}
+
+static void indicate(const ck_model *model, double found[CK_INDICATORS]) {
+    const ck_memory *memory = &model->state.memory;
+    double gap = model->state.values[CK_H];
+    ck_acting acting;
+    ck_act(&model->scene, memory->film, memory->broken, memory->detached, &acting);
+    if (memory->broken)
+        found[CK_Z_FILM] = beyond(gap, model->scene.tables->rewetting > 0.0 ? model->scene.initial_gap : 0.0);
+    else found[CK_Z_FILM] = beyond(gap, acting.end);
+    found[CK_Z_SOLIDS] = beyond(gap, memory->detached ? model->scene.recontact : acting.release);
+    found[CK_Z_KINK] = kinks(&acting, gap);
+    found[CK_Z_OUTPUTS] = model->event_mode && ck_events_lag(model) ? -1.0 : 1.0;
+}
+
+/* Events at the gap where the host stopped. */
+static void apply_events(ck_model *model) {
+    ck_memory *memory = &model->state.memory;
+    double gap = model->state.values[CK_H], breaks = model->state.values[CK_N_BREAK];
+    memory->gap = gap;
+    apply_event(model, gap, 0, model->state.time);
+    if (model->state.values[CK_N_BREAK] > breaks) tell(model);
+}
+
+static const ck_exchange exchange = {2, STATES, DERIVATIVES, obstacle, indicate, apply_events};
+
+const ck_kind ck_stiction_force = {apply, start, show, step, resolve, 1, slope, NULL, &exchange};

@@ -145,4 +145,4 @@ static void resolve(ck_model *model) {
     tell(model, &before);
 }
 
-const ck_kind ck_stiction_mass = {apply, start, show, step, resolve, 0, NULL, NULL};
+const ck_kind ck_stiction_mass = {apply, start, show, step, resolve, 0, NULL, NULL, NULL};

@@ -113,6 +113,11 @@ const ck_variable *ck_model_variable(ck_model *model, unsigned reference, int ty
 
 static int refuse(ck_model *model, const ck_variable *port, double value, const char *expected) {
     char message[300];
+    if (model->exchanges && model->state.phase == CK_STEPPING && port->causality == CK_INPUT) {
+        snprintf(message, sizeof message, "%s must %s, got %.17g; take a shorter step", ck_names[port->id],
+                 expected, value);
+        return ck_model_discard(model, message);
+    }
     snprintf(message, sizeof message, "%s must %s, got %.17g; reset the FMU, then set it so",
              ck_names[port->id], expected, value);
     return ck_model_fail(model, message);
@@ -247,6 +252,12 @@ const char *ck_model_prepare(ck_model *model) {
     return NULL;
 }
 
+/* Outputs that are no continuous numbers change in event mode only, and the event a step ended for
+   is applied in it. Between two events the host sees what it has seen; `latest` is what is true. */
+static int holds(const ck_model *model) {
+    return model->event_mode && model->state.phase == CK_STEPPING;
+}
+
 static int show(ck_model *model) {
     double seen[CK_DISCRETE];
     int fine;
@@ -268,7 +279,9 @@ void ck_model_follow(ck_model *model) {
     }
     if (state->shown || state->phase < CK_STEPPING || (state->failed && kind->follows)) return;
     state->shown = 1;
-    if (!show(model))
+    if (show(model)) return;
+    if (holds(model) && model->exchanges) state->shown = 0; /* for a shorter step of the host */
+    else
         ck_model_fail(model, "the forces there are no finite numbers; reset the FMU, or go back "
                              "to an earlier state");
 }
@@ -278,6 +291,8 @@ int ck_model_get(ck_model *model, unsigned reference, int types, double *value) 
     if (!port) return CK_ERROR;
     if (model->state.stale || !model->state.shown) ck_model_follow(model);
     *value = model->state.values[port->id];
+    if (model->exchanges && !model->state.shown && model->state.phase == CK_STEPPING && !model->state.failed)
+        return ck_model_discard(model, "the forces there are no finite numbers; take a shorter step");
     return CK_OK;
 }
 
@@ -331,6 +346,7 @@ int ck_model_initialize(ck_model *model) {
     if (!ck_model_is_in(model, CK_INITIALIZATION, "exitInitializationMode")) return CK_ERROR;
     if (model->state.failed) return CK_ERROR;
     problem = ck_model_prepare(model);
+    if (!problem && model->exchanges) problem = ck_model_kind(model)->exchange->obstacle(model);
     if (problem) {
         snprintf(message, sizeof message, "initialization: %s; reset the FMU, then set it so",
                  problem);
@@ -369,6 +385,10 @@ int ck_model_step(ck_model *model, double time, double step) {
     double clock = CLOCK * fabs(state->time), nothing = ck_larger(clock, REST * last), length;
     double seen[CK_DISCRETE];
     int status;
+    if (model->exchanges) {
+        ck_model_fail(model, "doStep is for co-simulation, this instance is for model exchange; reset it");
+        return CK_DISCARD;
+    }
     if (state->failed || !ck_model_is_in(model, CK_STEPPING, "doStep")) return CK_DISCARD;
     if (!(fabs(lag) <= nothing + off && isfinite(step)) || step < -ck_larger(clock, OFF * last)) {
         char message[300];
@@ -446,12 +466,6 @@ int ck_model_restore(ck_model *model, const ck_state *state, const double *field
 
 /* Event mode ----------------------------------------------------------------------------------- */
 
-/* Outputs that are no continuous numbers change in event mode only, and the event a step ended for
-   is applied in it. Between two events the host sees what it has seen; `latest` is what is true. */
-static int holds(const ck_model *model) {
-    return model->event_mode && model->state.phase == CK_STEPPING;
-}
-
 int ck_model_pends(const ck_model *model) {
     const ck_state *state = &model->state;
     return state->motion.pending || state->memory.pending || state->driven.pending;
@@ -489,7 +503,8 @@ int ck_model_update(ck_model *model) {
     if (model->state.failed || !ck_model_is_in(model, CK_EVENT, "updateDiscreteStates"))
         return CK_ERROR;
     for (i = 0; i < CK_DISCRETE; i++) model->state.values[ck_discrete[i]] = model->state.latest[i];
-    if (ck_model_pends(model)) ck_model_kind(model)->resolve(model);
+    if (model->exchanges) ck_model_kind(model)->exchange->apply_events(model);
+    else if (ck_model_pends(model)) ck_model_kind(model)->resolve(model);
     model->state.event = model->state.shown = 0;
     ck_model_follow(model);
     ck_events_note(model);

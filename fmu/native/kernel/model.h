@@ -1,6 +1,7 @@
 /* The models behind both versions of FMI: their variables, phases, what they refuse.
 
-   Common to all models (model.c): variables, phases, refusals. `stiction-mass` is in mass.c, a mass
+   Common to all models (model.c): variables, phases, refusals; model exchange is in exchange.c.
+   `stiction-mass` is in mass.c, a mass
    with its film; `stiction-force` in force.c, a film for a tool that owns the mass; `valve-drive`
    in drive.c and `contact-stop` in stop.c, which have no film; `tip-contact` in tip.c, spring tips with
    theirs. Which of them an instance is says its file of data.
@@ -19,7 +20,7 @@
 
 #include <stdint.h>
 
-enum { CK_INSTANTIATED = 0, CK_INITIALIZATION = 1, CK_STEPPING = 2, CK_EVENT = 3, CK_TERMINATED = 4 };
+enum { CK_ANY = -1, CK_INSTANTIATED = 0, CK_INITIALIZATION = 1, CK_STEPPING = 2, CK_EVENT = 3, CK_TERMINATED = 4 };
 enum { CK_OK = 0, CK_WARNING = 1, CK_DISCARD = 2, CK_ERROR = 3 }; /* as in FMI 2 and 3 */
 
 /* What the file of an FMU holds (description.h); its tables point into `numbers` and `cells`. */
@@ -106,8 +107,20 @@ typedef struct {
     ck_say say;
     void *host;
     int event_mode, early, pauses; /* of FMI 3: whether it is used, a step may end early, and at an event */
+    int exchanges;                 /* model exchange: the host integrates, event mode is used */
     char wrong[200];        /* what is wrong with parameters */
 } ck_model;
+
+/* Model exchange of a model: its continuous states and their derivatives, as variables in the order of
+   the model description; why what was set has none, or NULL; event indicators, which change their sign
+   at events; and the events at the motion where the host stopped for one. */
+typedef struct {
+    int n_states;
+    const int *states, *derivatives;
+    const char *(*obstacle)(const ck_model *model);
+    void (*indicate)(const ck_model *model, double found[CK_INDICATORS]);
+    void (*apply_events)(ck_model *model);
+} ck_exchange;
 
 /* What one of the models is made of. */
 typedef struct {
@@ -121,6 +134,7 @@ typedef struct {
     int (*slope)(const ck_model *model, int unknown, int known, double *slope);
     /* Derivative of an output by time, over the last step; 0 if there is none. NULL: of none. */
     int (*rate)(const ck_model *model, int output, double *rate);
+    const ck_exchange *exchange; /* NULL: co-simulation only */
 } ck_kind;
 
 extern const ck_kind CK_KIND_NAMES;
@@ -171,6 +185,17 @@ void ck_events_lift(ck_model *model, double seen[CK_DISCRETE]);
 void ck_events_hold(ck_model *model, const double seen[CK_DISCRETE]);
 int ck_events_lag(const ck_model *model); /* whether event mode has anything to show */
 void ck_events_skip(ck_model *model); /* if it is not used nothing waits for it */
+
+/* Model exchange (exchange.c). A host tries motions beyond what the tables hold while it looks for a
+   step: those are discarded. Numbers are read in any phase, CK_ANY. */
+int ck_exchange_is_on(ck_model *model, int phase, const char *call);
+int ck_exchange_time(ck_model *model, double time);
+int ck_exchange_states(ck_model *model, double found[], size_t n);
+int ck_exchange_set_states(ck_model *model, const double given[], size_t n);
+int ck_exchange_derivatives(ck_model *model, double found[], size_t n);
+int ck_exchange_indicators(ck_model *model, double found[], size_t n);
+int ck_exchange_nominals(ck_model *model, double found[], size_t n);
+int ck_exchange_has_state(const ck_model *model, int variable);
 
 /* For the models themselves. */
 int ck_model_fail(ck_model *model, const char *message);    /* CK_ERROR, and so on */

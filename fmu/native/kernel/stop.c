@@ -129,4 +129,4 @@ static int slope(const ck_model *model, int unknown, int known, double *found) {
     return 1;
 }
 
-const ck_kind ck_contact_stop = {apply, start, show, step, resolve, 1, slope, NULL};
+const ck_kind ck_contact_stop = {apply, start, show, step, resolve, 1, slope, NULL, NULL};

@@ -289,7 +289,7 @@ static int slope_force(const ck_model *model, int unknown, int known, double *fo
 }
 
 const ck_kind ck_deforming_force = {apply,   start_force, show_force,  step_force,
-                                    resolve, 0,           slope_force, NULL};
+                                    resolve, 0,           slope_force, NULL, NULL};
 
 /* The mass inside ----------------------------------------------------------------------------------------- */
 
@@ -319,4 +319,4 @@ static int show_mass(ck_model *model) {
     return show(model);
 }
 
-const ck_kind ck_deforming_mass = {apply_mass, start, show_mass, step_mass, resolve, 0, NULL, NULL};
+const ck_kind ck_deforming_mass = {apply_mass, start, show_mass, step_mass, resolve, 0, NULL, NULL, NULL};

@@ -1,4 +1,4 @@
-/* FMI 2.0 for co-simulation. Nothing the host does wrong may end its process. */
+/* FMI 2.0 for co-simulation and, where a model has it, model exchange. Nothing the host does wrong may end its process. */
 
 #include "fmi2Functions.h"
 
@@ -68,10 +68,15 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     own->wanted = logs ? CK_LOG_ALL : CK_LOG_ERROR; /* why it refuses is no debugging */
     own->model.say = say, own->model.host = own;
     if (!own->name || !name || !*name) say(own, CK_ERROR, "logStatusError", "the instance needs a name");
-    else if (type != fmi2CoSimulation) say(own, CK_ERROR, "logStatusError", "this FMU is for co-simulation only");
+    else if (type != fmi2CoSimulation && type != fmi2ModelExchange)
+        say(own, CK_ERROR, "logStatusError", "this FMU is for co-simulation or model exchange");
     else if (!guid || !resources || !ck_folder_of(resources, folder, sizeof folder))
         say(own, CK_ERROR, "logStatusError", "GUID or resource location is missing, or no file");
-    else if (ck_model_open(&own->model, folder, guid)) {
+    else if (!ck_model_open(&own->model, folder, guid)) handle = NULL; /* it has said why */
+    else if (type == fmi2ModelExchange && !ck_model_kind(&own->model)->exchange)
+        say(own, CK_ERROR, "logStatusError", "this FMU is for co-simulation only");
+    else {
+        own->model.exchanges = own->model.event_mode = type == fmi2ModelExchange;
         handle = ck_handle_new(CK_INSTANCES, own);
         if (!handle) say(own, CK_ERROR, "logStatusError", "there are too many instances");
     }
@@ -108,8 +113,11 @@ fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
 }
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
+    int status;
     OWN(c);
-    return (fmi2Status)ck_model_initialize(&own->model);
+    status = ck_model_initialize(&own->model);
+    if (status == CK_OK && own->model.exchanges) own->model.state.phase = CK_EVENT;
+    return (fmi2Status)status;
 }
 
 fmi2Status fmi2Terminate(fmi2Component c) {
@@ -128,11 +136,12 @@ fmi2Status fmi2Reset(fmi2Component c) {
 
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[]) {
     size_t i;
+    int status = CK_OK;
     OWN(c);
     if (n > 0 && (!vr || !value)) return fail(own, "getReal: arguments are missing");
-    for (i = 0; i < n; i++)
-        if (ck_model_get(&own->model, vr[i], CK_REAL, &value[i]) != CK_OK) return fmi2Error;
-    return fmi2OK;
+    for (i = 0; i < n && status == CK_OK; i++)
+        status = ck_model_get(&own->model, vr[i], CK_REAL, &value[i]);
+    return (fmi2Status)status;
 }
 
 fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n,
@@ -151,11 +160,12 @@ fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                        const fmi2Real value[]) {
     size_t i;
+    int status = CK_OK;
     OWN(c);
     if (n > 0 && (!vr || !value)) return fail(own, "setReal: arguments are missing");
-    for (i = 0; i < n; i++)
-        if (ck_model_set(&own->model, vr[i], CK_REAL, value[i]) != CK_OK) return fmi2Error;
-    return fmi2OK;
+    for (i = 0; i < n && status == CK_OK; i++)
+        status = ck_model_set(&own->model, vr[i], CK_REAL, value[i]);
+    return (fmi2Status)status;
 }
 
 fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n,
@@ -293,6 +303,65 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2S
     (void)own, (void)kind, (void)value;
     return fmi2Discard;
 }
+
+/* Model exchange ------------------------------------------------------------------------------- */
+
+#define OWN_EXCHANGE(component, phase, call) \
+    OWN(component);                          \
+    if (!ck_exchange_is_on(&own->model, phase, call)) return fmi2Error
+
+fmi2Status fmi2EnterEventMode(fmi2Component c) {
+    OWN_EXCHANGE(c, CK_STEPPING, "enterEventMode");
+    own->model.state.phase = CK_EVENT;
+    return fmi2OK;
+}
+
+fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info) {
+    OWN_EXCHANGE(c, CK_EVENT, "newDiscreteStates");
+    if (!info) return fail(own, "newDiscreteStates: arguments are missing");
+    info->newDiscreteStatesNeeded = info->terminateSimulation = fmi2False;
+    info->nominalsOfContinuousStatesChanged = info->valuesOfContinuousStatesChanged = fmi2False;
+    info->nextEventTimeDefined = fmi2False, info->nextEventTime = 0.0;
+    return (fmi2Status)ck_model_update(&own->model);
+}
+
+fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c) {
+    OWN_EXCHANGE(c, CK_EVENT, "enterContinuousTimeMode");
+    own->model.state.phase = CK_STEPPING;
+    return fmi2OK;
+}
+
+fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean keeps, fmi2Boolean *event,
+                                       fmi2Boolean *terminate) {
+    OWN_EXCHANGE(c, CK_STEPPING, "completedIntegratorStep");
+    (void)keeps;
+    if (!event || !terminate) return fail(own, "completedIntegratorStep: arguments are missing");
+    *event = *terminate = fmi2False;
+    return fmi2OK;
+}
+
+fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {
+    OWN(c);
+    if (!ck_exchange_is_on(&own->model, CK_ANY, "setTime")) return fmi2Error;
+    return (fmi2Status)ck_exchange_time(&own->model, time);
+}
+
+fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n) {
+    OWN_EXCHANGE(c, CK_STEPPING, "setContinuousStates");
+    return (fmi2Status)ck_exchange_set_states(&own->model, x, n);
+}
+
+#define NUMBERS(NAME, FUNCTION)                                                                \
+    fmi2Status fmi2Get##NAME(fmi2Component c, fmi2Real found[], size_t n) {                    \
+        OWN(c);                                                                                \
+        if (!ck_exchange_is_on(&own->model, CK_ANY, "get" #NAME)) return fmi2Error; \
+        return (fmi2Status)FUNCTION(&own->model, found, n);                                    \
+    }
+
+NUMBERS(Derivatives, ck_exchange_derivatives)
+NUMBERS(EventIndicators, ck_exchange_indicators)
+NUMBERS(ContinuousStates, ck_exchange_states)
+NUMBERS(NominalsOfContinuousStates, ck_exchange_nominals)
 
 /* The state of an instance --------------------------------------------------------------------- */
 

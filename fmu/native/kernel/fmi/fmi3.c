@@ -1,4 +1,4 @@
-/* FMI 3.0 for co-simulation: life of an instance, its modes, its steps. Nothing the host does wrong
+/* FMI 3.0 for co-simulation and, where a model has it, model exchange: life of an instance, its modes, its steps. Nothing the host does wrong
    may end its process.
 
    A host that uses event mode and allows an early return gets it where the film breaks or wets the
@@ -51,26 +51,29 @@ fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t n,
     return fmi3OK;
 }
 
-fmi3Instance fmi3InstantiateCoSimulation(
-    fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logs,
-    fmi3Boolean event_mode, fmi3Boolean early, const fmi3ValueReference intermediate[],
-    size_t intermediate_count, fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger,
-    fmi3IntermediateUpdateCallback update) {
+static const char CO_SIMULATION[] = "this FMU is for co-simulation only";
+
+/* An instance that logs to its host. */
+static ck_own *start(fmi3Boolean logs, fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger) {
     ck_own *own = (ck_own *)calloc(1, sizeof *own);
-    char folder[900];
-    fmi3Instance handle = NULL;
-    (void)visible, (void)intermediate, (void)update;
     if (!own) return NULL;
     own->logger = logger, own->environment = environment;
     own->wanted = logs ? CK_LOG_ALL : CK_LOG_ERROR; /* why it refuses is no debugging */
     own->model.say = say, own->model.host = own;
-    own->model.event_mode = event_mode, own->model.early = early;
-    own->model.pauses = event_mode && early;
+    return own;
+}
+
+/* Its handle, or NULL and nothing left of it; `refused` says why it cannot be. */
+static fmi3Instance opened(ck_own *own, fmi3String name, fmi3String token, fmi3String resources,
+                           const char *refused) {
+    char folder[900];
+    fmi3Instance handle = NULL;
     if (!name || !*name) lack(own, "the instance needs a name");
-    else if (intermediate_count > 0) lack(own, "intermediate updates are not provided; ask for none");
+    else if (refused) lack(own, refused);
     else if (!token || !resources || !ck_folder_of(resources, folder, sizeof folder))
         lack(own, "instantiation token or resource path is missing, or too long");
     else if (!ck_model_open(&own->model, folder, token)) handle = NULL; /* it has said why */
+    else if (own->model.exchanges && !ck_model_kind(&own->model)->exchange) lack(own, CO_SIMULATION);
     else {
         handle = ck_handle_new(CK_INSTANCES, own);
         if (!handle) lack(own, "there are too many instances");
@@ -80,6 +83,31 @@ fmi3Instance fmi3InstantiateCoSimulation(
         free(own);
     }
     return handle;
+}
+
+fmi3Instance fmi3InstantiateCoSimulation(
+    fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logs,
+    fmi3Boolean event_mode, fmi3Boolean early, const fmi3ValueReference intermediate[],
+    size_t intermediate_count, fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger,
+    fmi3IntermediateUpdateCallback update) {
+    ck_own *own = start(logs, environment, logger);
+    (void)visible, (void)intermediate, (void)update;
+    if (!own) return NULL;
+    own->model.event_mode = event_mode, own->model.early = early;
+    own->model.pauses = event_mode && early;
+    return opened(own, name, token, resources,
+                  intermediate_count > 0 ? "intermediate updates are not provided; ask for none" : NULL);
+}
+
+fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
+                                          fmi3Boolean visible, fmi3Boolean logs,
+                                          fmi3InstanceEnvironment environment,
+                                          fmi3LogMessageCallback logger) {
+    ck_own *own = start(logs, environment, logger);
+    (void)visible;
+    if (!own) return NULL;
+    own->model.exchanges = own->model.event_mode = 1;
+    return opened(own, name, token, resources, NULL);
 }
 
 void fmi3FreeInstance(fmi3Instance instance) {
@@ -135,6 +163,8 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *again,
 
 fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
     OWN(instance);
+    if (own->model.exchanges)
+        return fail(own, "enterStepMode: this instance is for model exchange, call enterContinuousTimeMode");
     if (!ck_model_is_in(&own->model, CK_EVENT, "enterStepMode")) return fmi3Error;
     own->model.state.phase = CK_STEPPING;
     return fmi3OK;
@@ -181,10 +211,20 @@ static int fit(ck_own *own, const void *vr, size_t n, const void *values, size_t
 }
 
 static int get(ck_own *own, fmi3ValueReference vr, int type, double *found) {
-    if (type != CK_REAL || vr != (fmi3ValueReference)own->model.data.contents.n_variables + 1)
-        return ck_model_get(&own->model, vr, type, found);
-    *found = own->model.state.time; /* the variable that comes after all others */
-    return CK_OK;
+    /* The time comes after all variables, the event indicators after the time. */
+    fmi3ValueReference last = (fmi3ValueReference)own->model.data.contents.n_variables + 1;
+    double indicators[CK_INDICATORS];
+    int status;
+    if (type != CK_REAL || vr < last) return ck_model_get(&own->model, vr, type, found);
+    if (vr == last) {
+        *found = own->model.state.time;
+        return CK_OK;
+    }
+    if (vr > last + CK_INDICATORS || !ck_model_kind(&own->model)->exchange)
+        return ck_model_get(&own->model, vr, type, found); /* which refuses it */
+    status = ck_exchange_indicators(&own->model, indicators, CK_INDICATORS);
+    if (status == CK_OK) *found = indicators[vr - last - 1];
+    return status;
 }
 
 #define ACCESS(TYPE, OUR_TYPE)                                                                    \
@@ -195,7 +235,8 @@ static int get(ck_own *own, fmi3ValueReference vr, int type, double *found) {
         if (!fit(own, vr, n, values, m)) return fmi3Error;                                        \
         for (i = 0; i < n; i++) {                                                                 \
             double found;                                                                         \
-            if (get(own, vr[i], OUR_TYPE, &found) != CK_OK) return fmi3Error;                     \
+            int status = get(own, vr[i], OUR_TYPE, &found);                                       \
+            if (status != CK_OK) return (fmi3Status)status;                                       \
             values[i] = (fmi3##TYPE)found;                                                        \
         }                                                                                         \
         return fmi3OK;                                                                            \
@@ -205,9 +246,10 @@ static int get(ck_own *own, fmi3ValueReference vr, int type, double *found) {
         size_t i;                                                                                 \
         OWN(instance);                                                                            \
         if (!fit(own, vr, n, values, m)) return fmi3Error;                                        \
-        for (i = 0; i < n; i++)                                                                   \
-            if (ck_model_set(&own->model, vr[i], OUR_TYPE, (double)values[i]) != CK_OK)           \
-                return fmi3Error;                                                                 \
+        for (i = 0; i < n; i++) {                                                                 \
+            int status = ck_model_set(&own->model, vr[i], OUR_TYPE, (double)values[i]);           \
+            if (status != CK_OK) return (fmi3Status)status;                                       \
+        }                                                                                         \
         return fmi3OK;                                                                            \
     }
 
@@ -259,6 +301,63 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
     }
     return fmi3OK;
 }
+
+/* Model exchange ------------------------------------------------------------------------------ */
+
+#define OWN_EXCHANGE(instance, phase, call) \
+    OWN(instance);                          \
+    if (!ck_exchange_is_on(&own->model, phase, call)) return fmi3Error
+
+fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) {
+    OWN_EXCHANGE(instance, CK_EVENT, "enterContinuousTimeMode");
+    own->model.state.phase = CK_STEPPING;
+    return fmi3OK;
+}
+
+fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean keeps, fmi3Boolean *event,
+                                       fmi3Boolean *terminate) {
+    OWN_EXCHANGE(instance, CK_STEPPING, "completedIntegratorStep");
+    (void)keeps;
+    if (!event || !terminate) return fail(own, "completedIntegratorStep: arguments are missing");
+    *event = *terminate = fmi3False;
+    return fmi3OK;
+}
+
+fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
+    OWN(instance);
+    if (!ck_exchange_is_on(&own->model, CK_ANY, "setTime")) return fmi3Error;
+    return (fmi3Status)ck_exchange_time(&own->model, time);
+}
+
+fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 states[], size_t n) {
+    OWN_EXCHANGE(instance, CK_STEPPING, "setContinuousStates");
+    return (fmi3Status)ck_exchange_set_states(&own->model, states, n);
+}
+
+#define NUMBERS(NAME, FUNCTION)                                                                   \
+    fmi3Status fmi3Get##NAME(fmi3Instance instance, fmi3Float64 found[], size_t n) {              \
+        OWN(instance);                                                                            \
+        if (!ck_exchange_is_on(&own->model, CK_ANY, "get" #NAME)) return fmi3Error; \
+        return (fmi3Status)FUNCTION(&own->model, found, n);                                       \
+    }
+
+NUMBERS(ContinuousStateDerivatives, ck_exchange_derivatives)
+NUMBERS(EventIndicators, ck_exchange_indicators)
+NUMBERS(ContinuousStates, ck_exchange_states)
+NUMBERS(NominalsOfContinuousStates, ck_exchange_nominals)
+
+#define COUNT(NAME, NUMBER)                                                                       \
+    fmi3Status fmi3GetNumberOf##NAME(fmi3Instance instance, size_t *count) {                      \
+        OWN(instance);                                                                            \
+        if (!ck_exchange_is_on(&own->model, CK_ANY, "getNumberOf" #NAME))         \
+            return fmi3Error;                                                                     \
+        if (!count) return fail(own, "getNumberOf" #NAME ": arguments are missing");              \
+        *count = (size_t)(NUMBER);                                                                \
+        return fmi3OK;                                                                            \
+    }
+
+COUNT(EventIndicators, CK_INDICATORS)
+COUNT(ContinuousStates, ck_model_kind(&own->model)->exchange->n_states)
 
 /* The state ----------------------------------------------------------------------------------- */
 
@@ -436,9 +535,7 @@ fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) { return lacks(inst
 
 fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance) { return lacks(instance, NO_ARRAYS); }
 
-/* Other kinds of FMU -------------------------------------------------------------------------- */
-
-static const char CO_SIMULATION[] = "this FMU is for co-simulation only";
+/* Other calls --------------------------------------------------------------------------------- */
 
 fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance) {
     return lacks(instance, "evaluateDiscreteStates is not provided; call updateDiscreteStates");
@@ -455,58 +552,10 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueRefere
     return (fmi3Status)status;
 }
 
-fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) {
-    return lacks(instance, CO_SIMULATION);
-}
-
-fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean keeps,
-                                       fmi3Boolean *enter_event_mode, fmi3Boolean *terminate) {
-    (void)keeps, (void)enter_event_mode, (void)terminate;
-    return lacks(instance, CO_SIMULATION);
-}
-
-fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
-    (void)time;
-    return lacks(instance, CO_SIMULATION);
-}
-
-fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 states[], size_t n) {
-    (void)states, (void)n;
-    return lacks(instance, CO_SIMULATION);
-}
-
-#define LACKS_STATES(NAME)                                                                        \
-    fmi3Status fmi3Get##NAME(fmi3Instance instance, fmi3Float64 values[], size_t n) {             \
-        (void)values, (void)n;                                                                    \
-        return lacks(instance, CO_SIMULATION);                                                    \
-    }
-
-LACKS_STATES(ContinuousStateDerivatives)
-LACKS_STATES(EventIndicators)
-LACKS_STATES(ContinuousStates)
-LACKS_STATES(NominalsOfContinuousStates)
-
-#define LACKS_COUNT(NAME)                                                                         \
-    fmi3Status fmi3GetNumberOf##NAME(fmi3Instance instance, size_t *count) {                      \
-        (void)count;                                                                              \
-        return lacks(instance, CO_SIMULATION);                                                    \
-    }
-
-LACKS_COUNT(EventIndicators)
-LACKS_COUNT(ContinuousStates)
-
 /* There is no instance yet to log through. */
 static fmi3Instance no_instance(fmi3LogMessageCallback logger, fmi3InstanceEnvironment environment) {
-    if (logger) logger(environment, fmi3Error, "logStatusError", CO_SIMULATION);
+    if (logger) logger(environment, fmi3Error, "logStatusError", "this FMU has no clocks to schedule");
     return NULL;
-}
-
-fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String folder,
-                                          fmi3Boolean visible, fmi3Boolean logs,
-                                          fmi3InstanceEnvironment environment,
-                                          fmi3LogMessageCallback logger) {
-    (void)name, (void)token, (void)folder, (void)visible;
-    return no_instance(logs ? logger : NULL, environment);
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(

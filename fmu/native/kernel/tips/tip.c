@@ -406,4 +406,4 @@ static int slope(const ck_model *model, int unknown, int known, double *found) {
     return 1;
 }
 
-const ck_kind ck_tip_contact = {apply, start, show, step, resolve, 1, slope, NULL};
+const ck_kind ck_tip_contact = {apply, start, show, step, resolve, 1, slope, NULL, NULL};
