@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from attrs import frozen
 
@@ -12,8 +12,12 @@ from ..accuracy import Accuracy
 from ..errors import DescriptionError, PlanError, nearest
 from ..export.report import FmuStart
 from ..models.library import bundled_scenes
+from ..scene.scenes import SeparationScene
 from .scenes import Opened, open_scene
 from .settings import assignments, with_settings
+
+if TYPE_CHECKING:
+    from ..fmu.contents.references import ReferenceRun
 
 __all__ = ["Order", "build_fmu", "build_opened", "check_order"]
 
@@ -30,6 +34,7 @@ class Order(NamedTuple):
     native: bool
     model: str | None
     fmi: str
+    reference: bool = False
 
 
 @frozen
@@ -88,6 +93,11 @@ def build_fmu(order: Order) -> str:
 
     if order.what not in FMUS:
         return build_opened(order, with_settings(_opened(order.what, FMUS), order.settings))
+    if order.reference:
+        raise PlanError(
+            f"reference results are the motion of a scene under its pull, and {order.what} is a "
+            "model: build a separation scene, or leave out --reference"
+        )
     given = assignments(order.settings)
     if order.native:
         return _build_native(order, None, given)
@@ -105,11 +115,33 @@ def build_opened(order: Order, opened: Opened) -> str:
     """
     from ..fmu.python.build import build
 
+    reference = _reference(order, opened) if order.reference else None
     if order.native:
-        return _build_native(order, opened, {})
-    start = opened.fmu_start()
-    build(start.name, order.out, start=start.values)
-    return start.name
+        name = _build_native(order, opened, {})
+    else:
+        start = opened.fmu_start()
+        name = start.name
+        build(name, order.out, start=start.values)
+    if reference is not None:
+        from ..fmu.native.reference import add_reference
+
+        add_reference(order.out, *reference)
+    return name
+
+
+def _reference(order: Order, opened: Opened) -> tuple[SeparationScene, ReferenceRun]:
+    """Scene of an FMU and its reference results, before anything is built."""
+    from ..fmu.native.reference import reference_run
+
+    scene = opened.scene
+    if not isinstance(scene, SeparationScene) or order.model not in (None, *_FILMS):
+        raise PlanError(
+            f"reference results are those of the film of a separation scene, which {order.what} is "
+            "not: leave out --reference"
+        )
+    model = _film_model(order.model) or "stiction-mass"
+    accuracy = getattr(opened, "accuracy", Accuracy.standard)
+    return scene, reference_run(scene, model, film_rtol=accuracy.film_rtol)
 
 
 def _opened(what: str, names: Iterable[str]) -> Opened:

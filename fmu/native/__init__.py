@@ -21,5 +21,7 @@ ports        The variables of a native FMU: those of the Python FMU of that name
              leaves free.
 description  Model descriptions and build descriptions of native FMUs, in both versions of FMI.
 page         The page of documentation in a native FMU.
+reference    Reference results of a film: the motion of its scene by `ck.simulate`, put into its
+             FMU.
 kernel       The C kernel of native FMUs.
 """
