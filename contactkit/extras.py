@@ -24,6 +24,7 @@ _EXTRAS = {
     "pyamg": "films",
     "pythonfmu": "fmu",
     "pyvista": "view3d",
+    "wasmtime": "wasm",
     "xarray": "data",
     "ziglang": "native",
 }

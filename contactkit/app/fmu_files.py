@@ -35,6 +35,14 @@ class Order(NamedTuple):
     model: str | None
     fmi: str
     reference: bool = False
+    wasm: bool = False
+
+    def platforms(self) -> list[str] | None:
+        """Platforms to compile for; None for those that can be."""
+        from ..fmu.native.build import chosen_platforms
+        from ..fmu.native.component import WASM
+
+        return [*chosen_platforms(None), WASM] if self.wasm else None
 
 
 @frozen
@@ -60,6 +68,8 @@ def check_order(order: Order) -> None:
         raise PlanError(
             "without --native only FMUs of FMI 2.0 can be built; add --native, or leave out --fmi 3"
         )
+    if order.wasm and (order.fmi != "3" or not order.native):
+        raise PlanError("--wasm adds a binary to a native FMU of FMI 3.0; add --native --fmi 3")
     if order.model is not None and not order.native:
         raise PlanError(
             f"--model chooses the model of a native FMU; add --native, or build {order.model} by "
@@ -167,7 +177,7 @@ def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any])
     scene = getattr(opened, "scene", None)
     if "valve-drive" in (what, model):
         values = given if what == "valve-drive" else _drive_start(what, scene)
-        build_native_drive(order.out, start=values, fmi=fmi)
+        build_native_drive(order.out, start=values, fmi=fmi, platforms=order.platforms())
         return f"valve-drive, native, FMI {fmi}.0"
     by_scene = {"contact-stop": ContactScene, "tip-contact": MicromirrorScene}
     if model in by_scene and model != what and not isinstance(scene, by_scene[model]):
@@ -181,7 +191,7 @@ def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any])
         or (model is None and isinstance(scene, ContactScene))
     ):
         values = given if opened is None else opened.fmu_start().values
-        build_native_stop(order.out, start=values, fmi=fmi)
+        build_native_stop(order.out, start=values, fmi=fmi, platforms=order.platforms())
         return f"contact-stop, native, FMI {fmi}.0"
     if (
         what == "tip-contact"
@@ -189,7 +199,7 @@ def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any])
         or (model is None and isinstance(scene, MicromirrorScene))
     ):
         values = given if opened is None else opened.fmu_start().values
-        build_native_tip(order.out, start=values, fmi=fmi)
+        build_native_tip(order.out, start=values, fmi=fmi, platforms=order.platforms())
         return f"tip-contact, native, FMI {fmi}.0"
     film_alone = "stiction-force" in (what, model)
     kind: Literal["stiction-mass", "stiction-force"] = (
@@ -200,7 +210,15 @@ def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any])
     rtol: float | None = accuracy.film_rtol
     if "film_rtol" not in accuracy.given and rtol == Accuracy.standard.film_rtol:
         rtol = None  # nobody asked for it
-    build_native(film, order.out, model=kind, start=start, fmi=fmi, film_rtol=rtol)
+    build_native(
+        film,
+        order.out,
+        model=kind,
+        start=start,
+        platforms=order.platforms(),
+        fmi=fmi,
+        film_rtol=rtol,
+    )
     if film.effect(ElasticBodies) is not None:
         own = getattr(film.loading, "mass", None) if kind == "stiction-mass" else None
         how = exactness_of(film, rtol, own).text

@@ -41,6 +41,9 @@ def fmu() -> None:
 )
 @click.option("--fmi", type=click.Choice(("2", "3")), default="2", help="Version of FMI.")
 @click.option(
+    "--wasm", is_flag=True, help="With a WebAssembly component beside the libraries; of FMI 3."
+)
+@click.option(
     "--reference", is_flag=True, help="With results to check it by, inside; of the film of a scene."
 )
 @options.overwrite
