@@ -143,7 +143,7 @@ def _reference(order: Order, opened: Opened) -> tuple[SeparationScene, Reference
     """Scene of an FMU and its reference results, before anything is built."""
     from ..fmu.native.reference import reference_run
 
-    scene = opened.scene
+    scene = getattr(opened, "scene", None)
     if not isinstance(scene, SeparationScene) or order.model not in (None, *_FILMS):
         raise PlanError(
             f"reference results are those of the film of a separation scene, which {order.what} is "

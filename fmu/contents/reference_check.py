@@ -104,8 +104,8 @@ def deviations(run: ReferenceRun, found: Mapping[str, Sequence[float]]) -> list[
     ...     name="a", description="", stop_time=1.0, step=1.0, stimuli={}, references=rows,
     ...     tolerance=1e-6,
     ... )
-    >>> deviations(run, {"time": [0.0, 1.0], "y": [0.0, 4.4]})[0].error
-    0.1
+    >>> deviations(run, {"time": [0.0, 1.0], "y": [0.0, 5.0]})[0].error
+    0.25
     """
     times = {round(time / run.step / _SAME): k for k, time in enumerate(found["time"])}
     rows = [_row(times, time / run.step / _SAME) for time in run.references["time"]]
