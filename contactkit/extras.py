@@ -25,6 +25,7 @@ _EXTRAS = {
     "pyamg": "films",
     "pythonfmu": "fmu",
     "pyvista": "view3d",
+    "wasmtime": "wasm",
     "xarray": "data",
     "yaml": "maps",
     "ziglang": "native",

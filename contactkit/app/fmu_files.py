@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from attrs import frozen
 
@@ -12,8 +12,12 @@ from ..accuracy import Accuracy
 from ..errors import DescriptionError, PlanError, nearest
 from ..export.report import FmuStart
 from ..models.library import bundled_scenes
+from ..scene.scenes import SeparationScene
 from .scenes import Opened, open_scene
 from .settings import assignments, with_settings
+
+if TYPE_CHECKING:
+    from ..fmu.contents.references import ReferenceRun
 
 __all__ = ["Order", "build_fmu", "build_opened", "check_order"]
 
@@ -30,6 +34,15 @@ class Order(NamedTuple):
     native: bool
     model: str | None
     fmi: str
+    reference: bool = False
+    wasm: bool = False
+
+    def platforms(self) -> list[str] | None:
+        """Platforms to compile for; None for those that can be."""
+        from ..fmu.native.build import chosen_platforms
+        from ..fmu.native.component import WASM
+
+        return [*chosen_platforms(None), WASM] if self.wasm else None
 
 
 @frozen
@@ -55,6 +68,8 @@ def check_order(order: Order) -> None:
         raise PlanError(
             "without --native only FMUs of FMI 2.0 can be built; add --native, or leave out --fmi 3"
         )
+    if order.wasm and (order.fmi != "3" or not order.native):
+        raise PlanError("--wasm adds a binary to a native FMU of FMI 3.0; add --native --fmi 3")
     if order.model is not None and not order.native:
         raise PlanError(
             f"--model chooses the model of a native FMU; add --native, or build {order.model} by "
@@ -88,6 +103,11 @@ def build_fmu(order: Order) -> str:
 
     if order.what not in FMUS:
         return build_opened(order, with_settings(_opened(order.what, FMUS), order.settings))
+    if order.reference:
+        raise PlanError(
+            f"reference results are the motion of a scene under its pull, and {order.what} is a "
+            "model: build a separation scene, or leave out --reference"
+        )
     given = assignments(order.settings)
     if order.native:
         return _build_native(order, None, given)
@@ -105,11 +125,33 @@ def build_opened(order: Order, opened: Opened) -> str:
     """
     from ..fmu.python.build import build
 
+    reference = _reference(order, opened) if order.reference else None
     if order.native:
-        return _build_native(order, opened, {})
-    start = opened.fmu_start()
-    build(start.name, order.out, start=start.values)
-    return start.name
+        name = _build_native(order, opened, {})
+    else:
+        start = opened.fmu_start()
+        name = start.name
+        build(name, order.out, start=start.values)
+    if reference is not None:
+        from ..fmu.native.reference import add_reference
+
+        add_reference(order.out, *reference)
+    return name
+
+
+def _reference(order: Order, opened: Opened) -> tuple[SeparationScene, ReferenceRun]:
+    """Scene of an FMU and its reference results, before anything is built."""
+    from ..fmu.native.reference import reference_run
+
+    scene = getattr(opened, "scene", None)
+    if not isinstance(scene, SeparationScene) or order.model not in (None, *_FILMS):
+        raise PlanError(
+            f"reference results are those of the film of a separation scene, which {order.what} is "
+            "not: leave out --reference"
+        )
+    model = _film_model(order.model) or "stiction-mass"
+    accuracy = getattr(opened, "accuracy", Accuracy.standard)
+    return scene, reference_run(scene, model, film_rtol=accuracy.film_rtol)
 
 
 def _opened(what: str, names: Iterable[str]) -> Opened:
@@ -135,7 +177,7 @@ def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any])
     scene = getattr(opened, "scene", None)
     if "valve-drive" in (what, model):
         values = given if what == "valve-drive" else _drive_start(what, scene)
-        build_native_drive(order.out, start=values, fmi=fmi)
+        build_native_drive(order.out, start=values, fmi=fmi, platforms=order.platforms())
         return f"valve-drive, native, FMI {fmi}.0"
     by_scene = {"contact-stop": ContactScene, "tip-contact": MicromirrorScene}
     if model in by_scene and model != what and not isinstance(scene, by_scene[model]):
@@ -149,7 +191,7 @@ def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any])
         or (model is None and isinstance(scene, ContactScene))
     ):
         values = given if opened is None else opened.fmu_start().values
-        build_native_stop(order.out, start=values, fmi=fmi)
+        build_native_stop(order.out, start=values, fmi=fmi, platforms=order.platforms())
         return f"contact-stop, native, FMI {fmi}.0"
     if (
         what == "tip-contact"
@@ -157,7 +199,7 @@ def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any])
         or (model is None and isinstance(scene, MicromirrorScene))
     ):
         values = given if opened is None else opened.fmu_start().values
-        build_native_tip(order.out, start=values, fmi=fmi)
+        build_native_tip(order.out, start=values, fmi=fmi, platforms=order.platforms())
         return f"tip-contact, native, FMI {fmi}.0"
     film_alone = "stiction-force" in (what, model)
     kind: Literal["stiction-mass", "stiction-force"] = (
@@ -168,7 +210,15 @@ def _build_native(order: Order, opened: Opened | None, given: Mapping[str, Any])
     rtol: float | None = accuracy.film_rtol
     if "film_rtol" not in accuracy.given and rtol == Accuracy.standard.film_rtol:
         rtol = None  # nobody asked for it
-    build_native(film, order.out, model=kind, start=start, fmi=fmi, film_rtol=rtol)
+    build_native(
+        film,
+        order.out,
+        model=kind,
+        start=start,
+        platforms=order.platforms(),
+        fmi=fmi,
+        film_rtol=rtol,
+    )
     if film.effect(ElasticBodies) is not None:
         own = getattr(film.loading, "mass", None) if kind == "stiction-mass" else None
         how = exactness_of(film, rtol, own).text

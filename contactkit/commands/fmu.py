@@ -1,9 +1,10 @@
-"""``contactkit fmu build``, ``fmu system``, ``fmu modelica`` and ``fmu crosscheck``."""
+"""``contactkit fmu build``, ``fmu check``, ``fmu system``, ``fmu modelica``, ``fmu crosscheck``."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -24,7 +25,7 @@ def _fmu_names() -> Iterable[str]:
 
 @click.group(cls=options.Group, no_args_is_help=False)
 def fmu() -> None:
-    """Build FMUs."""
+    """Build and check FMUs."""
 
 
 @fmu.command(cls=options.Command)
@@ -39,16 +40,14 @@ def fmu() -> None:
     "tips, or the stop of its faces.",
 )
 @click.option("--fmi", type=click.Choice(("2", "3")), default="2", help="Version of FMI.")
+@click.option(
+    "--wasm", is_flag=True, help="With a WebAssembly component beside the libraries; of FMI 3."
+)
+@click.option(
+    "--reference", is_flag=True, help="With results to check it by, inside; of the film of a scene."
+)
 @options.overwrite
-def build(
-    what: str,
-    settings: tuple[str, ...],
-    out: Path,
-    native: bool,
-    model: str | None,
-    fmi: str,
-    overwrite: bool,
-) -> None:
+def build(what: str, settings: tuple[str, ...], out: Path, overwrite: bool, **form: Any) -> None:
     """Write an FMU.
 
     WHAT is stiction-mass, stiction-force, valve-drive, tip-contact, contact-stop, or a scene, whose
@@ -58,7 +57,7 @@ def build(
     from ..app.output import check_file, enter
     from ..fmu.python.build import validate
 
-    order = Order(what, settings, out, native, model, fmi)
+    order = Order(what, settings, out, **form)
     check_order(order)
     check_file(out, ".fmu", overwrite=overwrite)
     with timed("build"):
@@ -69,6 +68,32 @@ def build(
     except MissingExtraError as error:
         verdict = f"not checked: {error}"
     say(f"{out}: {name}, {out.stat().st_size / 1024:.0f} KiB, {verdict}")
+
+
+@fmu.command(cls=options.Command)
+@click.argument("file", type=click.Path(path_type=Path))
+def check(file: Path) -> None:
+    """Check an FMU by fmpy, and run it against the results inside it (FMI-LS-REF).
+
+    FILE is an FMU, of contactkit or not. It is run: take one of people you trust.
+    """
+    from ..errors import ContactkitError
+    from ..fmu.contents.reference_check import check_references
+    from ..fmu.python.build import validate
+
+    found = check_references(file)
+    problems = validate(file)
+    for one in found:
+        verdict = "fine" if one.is_fine else "DIFFERS"
+        say(
+            f"{one.experiment}: {one.variable} differs by {one.error:.1e}, at most "
+            f"{one.tolerance:g}: {verdict}"
+        )
+    wrong = [one.variable for one in found if not one.is_fine]
+    if wrong or problems:
+        said = [*problems, *([f"results differ: {', '.join(wrong)}"] if wrong else [])]
+        raise ContactkitError(f"{file}: {'; '.join(said)}")
+    say(f"{file}: valid, as its reference results")
 
 
 @fmu.command(cls=options.Command)

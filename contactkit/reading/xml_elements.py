@@ -7,7 +7,7 @@ FMI or SSP has one, so it is refused where it begins, before anything expands.
 from __future__ import annotations
 
 from typing import Any
-from xml.etree.ElementTree import Element, fromstring
+from xml.etree.ElementTree import Element, ParseError, fromstring
 from xml.parsers import expat
 
 from ..errors import DescriptionError
@@ -73,4 +73,7 @@ def read_xml(content: bytes, where: str) -> Element:
     '1'
     """
     check_xml(content, where)
-    return fromstring(content)
+    try:
+        return fromstring(content)
+    except ParseError as error:  # a prefix without its namespace
+        raise _refused(where, "be XML", str(error)) from None

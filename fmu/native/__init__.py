@@ -9,6 +9,7 @@ record       Records: named members that Python writes and the C kernel reads, f
              declaration.
 records      Records in the file of a native FMU: films as tables, rough faces as curves.
 data         The file ``resources/film.bin`` of a native FMU: variables, tables and faces, for C.
+component    The C kernel as a WebAssembly component: the sixth binary of a native FMU of FMI 3.0.
 sources      The sources of the kernel of a native FMU: its files, and those made of the
              description.
 faces        The load-displacement curve of rough faces as the record that the C kernel reads.
@@ -21,5 +22,7 @@ ports        The variables of a native FMU: those of the Python FMU of that name
              leaves free.
 description  Model descriptions and build descriptions of native FMUs, in both versions of FMI.
 page         The page of documentation in a native FMU.
+reference    Reference results of a film: the motion of its scene by `ck.simulate`, put into its
+             FMU.
 kernel       The C kernel of native FMUs.
 """

@@ -34,6 +34,7 @@ from ..framework.toolchain import (
     local,
 )
 from ..slaves.stiction_mass import scene_of
+from .component import WASM, component_files
 from .data import contents_of, data_file, digest, guid_of
 from .deforming import DEFORMING, deforming_film, free_ports
 from .description import CATEGORIES, description_files
@@ -90,7 +91,8 @@ def build_native(
         Start values by variable; a text carries its unit (``"20 g"``). The mass, ``m`` or
         ``m_ref``, must be among them if the scene has none.
     platforms : sequence of str, optional
-        Platforms to compile for, of `toolchain.PLATFORMS`. None: all if ziglang is
+        Platforms to compile for, of `toolchain.PLATFORMS`, and ``wasm32-wasip2``, a WebAssembly
+        component of FMI 3.0 (FMI-LS-WASM). None: those of `toolchain.PLATFORMS` if ziglang is
         installed, else this computer's.
     compiler : {"auto", "zig", "cc"}
         See `toolchain.compile_kernel`.
@@ -329,7 +331,9 @@ def chosen_platforms(given: Sequence[str] | None) -> list[str]:
     if given is None:
         return list(PLATFORMS) if has_zig() else [local()]
     if not given:
-        raise DescriptionError("platforms", (), "name at least one of " + ", ".join(PLATFORMS))
+        raise DescriptionError(
+            "platforms", (), "name at least one of " + ", ".join((*PLATFORMS, WASM))
+        )
     return list(given)
 
 
@@ -349,10 +353,11 @@ def _binaries(
 ) -> dict[str, bytes]:
     """Libraries of the platforms, by their path in the FMU."""
     found: dict[str, list[bytes]] = {}
+    more = component_files(identifier, fmi, sources) if WASM in names else {}
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
         for name, content in sources.items():
             (Path(folder) / name).write_bytes(content)
-        for name in dict.fromkeys(names):
+        for name in dict.fromkeys(name for name in names if name != WASM):
             key = (digest(sources), name, compiler, os.environ.get("CC", ""))
             if key not in _COMPILED:
                 library = Path(folder) / f"{name}.library"
@@ -362,4 +367,5 @@ def _binaries(
             folder_in = place.fmi3 if fmi == 3 else place.fmi2
             path = f"binaries/{folder_in}/{identifier}{place.suffix}"
             found.setdefault(path, []).append(_COMPILED[key])
-    return {path: one[0] if len(one) == 1 else join_macs(one) for path, one in found.items()}
+    joined = {path: one[0] if len(one) == 1 else join_macs(one) for path, one in found.items()}
+    return joined | more

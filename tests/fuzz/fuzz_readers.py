@@ -22,6 +22,9 @@ import contactkit as ck
 from contactkit.app.scenes import open_scene
 from contactkit.errors import DescriptionError
 from contactkit.files.results import to_bytes
+from contactkit.fmu.contents.packing import write_archive
+from contactkit.fmu.contents.reference_check import read_references
+from contactkit.fmu.contents.references import ReferenceRun, reference_files
 from contactkit.fmu.contents.ssp import Component
 from contactkit.fmu.framework import state as fmu_state
 from contactkit.models.library import bundled_scenes
@@ -52,6 +55,7 @@ def readers() -> dict[str, Callable[[], Reader]]:
         "image": _images,
         "fmu": _fmus,
         "ssp": _components,
+        "reference": _references,
         "study": _points,
         "study file": _study_files,
         "state": _states,
@@ -351,6 +355,31 @@ def _components() -> Reader:
         assert root.tag
 
     return Reader({"a.fmu": fmu()}, read, check)
+
+
+def _references() -> Reader:
+    """Reference results in an FMU: the archive, and each of its files."""
+    rows = {"time": [0.0, 0.5, 1.0], "u": [2.0, 2.0, 1e-300]}
+    run = ReferenceRun(
+        name="pull",
+        description="by hand",
+        stop_time=1.0,
+        step=0.5,
+        stimuli=rows,
+        references={"time": [0.5, 1.0], "y": [0.0, -4.0]},
+        tolerance=1e-6,
+    )
+
+    def check(found: Any) -> None:
+        for one in found:
+            assert 0.0 < one.step <= one.stop_time < math.inf
+            for column in (*one.stimuli.values(), *one.references.values()):
+                assert all(map(math.isfinite, column))
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = write_archive(reference_files(run), Path(folder) / "a.fmu")
+        seeds = {"a.fmu": path.read_bytes()}
+    return Reader(seeds, read_references, check)
 
 
 # Plain values --------------------------------------------------------------------------------

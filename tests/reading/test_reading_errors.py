@@ -265,6 +265,7 @@ def test_entities_are_not_expanded(text):
 def test_xml_has_a_depth_a_size_and_an_encoding(small):
     refuses(lambda: check_xml(b"<a>" * 70, "a.xml"), "have at most 64 levels (a.xml has 65 levels)")
     refuses(lambda: check_xml(b"<a>", "a.xml"), "be XML", "no element found")
+    refuses(lambda: read_xml(b"<a b:c='1'/>", "a.xml"), "be XML", "unbound prefix")
     coded = '<?xml version="1.0" encoding="utf-7"?><a/>'
     refuses(lambda: check_xml(coded.encode(), "a.xml"), "be encoded as utf-8")
     small(TEXT_BYTES=3)

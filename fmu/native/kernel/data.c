@@ -110,31 +110,19 @@ static int suits(const ck_contents *c) {
            c->has_bodies == ck_deforms[c->model];
 }
 
-static FILE *open_file(const char *path) {
-#ifdef _WIN32
-    wchar_t wide[1024]; /* the path is UTF-8, whatever the code page of the host */
-    if (!MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, 1024)) return NULL;
-    return _wfopen(wide, L"rb");
-#else
-    return fopen(path, "rb");
-#endif
-}
-
-static const char *read_numbers(FILE *file, ck_data *data, uint64_t *count) {
+/* Read the head and the numbers of a file. */
+static const char *read_numbers(ck_read *read, void *from, ck_data *data, uint64_t *count) {
     char magic[8];
     uint64_t head[2];
-    if (fread(magic, 1, 8, file) != 8 || memcmp(magic, CK_LAYOUT, 8) != 0)
-        return "it is no file of this FMU";
-    if (fread(head, 8, 2, file) != 2 || fread(data->guid, 1, 40, file) != 40)
-        return "it is cut short";
+    if (!read(from, magic, 8) || memcmp(magic, CK_LAYOUT, 8) != 0) return "it is no file of this FMU";
+    if (!read(from, head, sizeof head) || !read(from, data->guid, 40)) return "it is cut short";
     data->guid[39] = 0;
     data->checksum = head[0];
     *count = head[1];
     if (*count == 0 || *count > MOST_NUMBERS) return "its length is wrong";
     data->numbers = (double *)malloc((size_t)*count * sizeof(double));
     if (!data->numbers) return "there is no memory for it";
-    if (fread(data->numbers, sizeof(double), (size_t)*count, file) != *count)
-        return "it is cut short";
+    if (!read(from, data->numbers, (size_t)*count * sizeof(double))) return "it is cut short";
     if (ck_checksum(data->numbers, (size_t)*count * sizeof(double)) != data->checksum)
         return "it was changed after the FMU was built";
     return NULL;
@@ -152,14 +140,38 @@ const char *ck_data_take(ck_data *data, size_t count) {
     return r.fine && r.next == r.end && suits(&data->contents) ? NULL : "what it says makes no sense";
 }
 
-/* Read a file; what was allocated stays in `data` for `ck_model_close`, whatever happens. */
-const char *ck_data_read(const char *path, ck_data *data) {
-    FILE *file = open_file(path);
+/* Read what a function hands out; what was allocated stays in `data` for `ck_model_close`, whatever
+   happens. */
+const char *ck_data_from(ck_read *read, void *from, ck_data *data) {
     uint64_t count = 0;
     const char *problem;
     memset(data, 0, sizeof *data);
-    if (!file) return "it cannot be opened";
-    problem = read_numbers(file, data, &count);
-    fclose(file);
+    problem = read_numbers(read, from, data, &count);
     return problem ? problem : ck_data_take(data, (size_t)count);
 }
+
+#ifndef CK_COMPONENT /* a WebAssembly component asks its host: fmi3wasm.c */
+static FILE *open_file(const char *path) {
+#ifdef _WIN32
+    wchar_t wide[1024]; /* the path is UTF-8, whatever the code page of the host */
+    if (!MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, 1024)) return NULL;
+    return _wfopen(wide, L"rb");
+#else
+    return fopen(path, "rb");
+#endif
+}
+
+static int read_file(void *file, void *to, size_t size) {
+    return fread(to, 1, size, (FILE *)file) == size;
+}
+
+const char *ck_data_read(const char *path, ck_data *data) {
+    FILE *file = open_file(path);
+    const char *problem;
+    memset(data, 0, sizeof *data);
+    if (!file) return "it cannot be opened";
+    problem = ck_data_from(read_file, file, data);
+    fclose(file);
+    return problem;
+}
+#endif

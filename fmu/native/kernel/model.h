@@ -140,7 +140,9 @@ typedef struct {
 extern const ck_kind CK_KIND_NAMES;
 
 /* Reading the file (data.c); the message says what is wrong with it, NULL if nothing is. */
+typedef int ck_read(void *from, void *to, size_t size); /* the next bytes; 0 if there are fewer */
 const char *ck_data_read(const char *path, ck_data *data);
+const char *ck_data_from(ck_read *read, void *from, ck_data *data);
 const char *ck_data_take(ck_data *data, size_t count); /* of numbers that are in it already */
 uint64_t ck_checksum(const void *bytes, size_t count);
 

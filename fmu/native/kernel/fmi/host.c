@@ -116,7 +116,9 @@ void ck_double_percents(const char *message, char *safe, size_t size) {
 
 /* Instances, and states, that a library has at a time. A handle is the number of its slot beside that
    of its use, so that one that was freed is never taken for a later one; 1 MB for each kind. */
+#ifndef SLOTS
 #define SLOTS 65536u
+#endif
 
 typedef struct {
     void *content;
