@@ -416,7 +416,7 @@ class Heights(Surface):
 
     def heights_on(self, grid: Grid) -> Map:
         """See `Surface.heights_on`."""
-        return self.heights.copy()
+        return self.heights
 
 
 @frozen(kw_only=True)

@@ -220,8 +220,10 @@ def test_an_extrapolation_uses_no_more_solutions_than_it_can_trust():
     near = 1.0, np.ones((2, 2))
     almost = 1.0 + 1e-9, 1.1 * np.ones((2, 2))
     lighter = 0.9, 0.9 * np.ones((2, 2))
-    np.testing.assert_array_equal(initial_pressure([near, almost], 1.1, True, (2, 2)), near[1])
-    found = initial_pressure([near, lighter], 1.1, True, (2, 2))
+    np.testing.assert_array_equal(
+        initial_pressure([near, almost], 1.1, True, (2, 2)).pressure, near[1]
+    )
+    found = initial_pressure([near, lighter], 1.1, True, (2, 2)).pressure
     assert found == pytest.approx(np.full((2, 2), 1.0 + 0.1 * np.log(1.1) / -np.log(0.9)))
 
 
