@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DescriptionError
-from ..reading.arrays import read_array
+from ..reading.arrays import read_map
 from ..reading.limits import check_limit, check_size
 from ..reading.named_files import check_digest, digest_of, existing
 from ..validators import LARGEST
@@ -29,6 +29,7 @@ __all__ = [
     "Tilt",
     "Trend",
     "checksum",
+    "detrend",
     "detrended",
     "filled",
     "read_height_map",
@@ -72,15 +73,20 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
     >>> abs(detrended(1.0 + 2.0 * x - y)).max() < 1e-14, detrended(x * x, "tilt").round(12)[0]
     (np.True_, array([ 1., -1., -1.,  1.]))
     """
-    left = np.array(heights, dtype=np.float64)
+    return detrend(np.array(heights, dtype=np.float64), trend)
+
+
+def detrend(left: Array, trend: Trend) -> Array:
+    """`detrended` in the memory of the heights, if they have no holes: a large map is held once."""
     if trend == "none":
         return left
     known = np.isfinite(left)
     if not known.all():
         return _detrended_around_holes(left, known, trend)
+    largest = max(float(left.max()), -float(left.min()))
     left -= left.mean()
     if trend == "mean":
-        return _without_residue(left, heights)
+        return _without_residue(left, largest)
     y, x = (_centred(np.linspace(-1.0, 1.0, n) if n > 1 else np.zeros(1)) for n in left.shape)
     shapes = [(y, np.ones_like(x)), (np.ones_like(y), x)]
     if trend == "curvature":
@@ -89,8 +95,10 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
     for of_y, of_x in shapes:
         square = float(of_y @ of_y) * float(of_x @ of_x)
         if square > 1e-12:  # a grid of one or two pixels has no tilt or no curvature
-            left -= (of_y @ left @ of_x / square * of_y)[:, None] * of_x
-    return _without_residue(left, heights)
+            along_y = of_y @ left @ of_x / square * of_y
+            for i in range(0, len(left), ROWS):
+                left[i : i + ROWS] -= along_y[i : i + ROWS, None] * of_x
+    return _without_residue(left, largest)
 
 
 def _detrended_around_holes(heights: Array, known: NDArray[np.bool_], trend: Trend) -> Array:
@@ -114,7 +122,8 @@ def _detrended_around_holes(heights: Array, known: NDArray[np.bool_], trend: Tre
     found, *_ = np.linalg.lstsq(np.array(matrix), np.array(right), rcond=1e-12)
     for (i, j), factor in zip(powers, found.tolist(), strict=True):
         values -= factor * (y**i)[:, None] * x**j
-    return np.where(known, _without_residue(values * known, heights[known]), np.nan)
+    largest = float(np.abs(heights[known]).max(initial=0.0))
+    return np.where(known, _without_residue(values * known, largest), np.nan)
 
 
 class Tilt(NamedTuple):
@@ -170,10 +179,12 @@ def filled(heights: Array) -> Array:
     return np.asarray(heights[tuple(nearest)])
 
 
-def _without_residue(left: Array, given: Array) -> Array:
-    """Zero in place of heights that are the round-off of those given."""
-    largest = float(np.abs(given).max(initial=0.0))
-    return np.zeros_like(left) if float(np.abs(left).mean()) <= _RESIDUE * largest else left
+def _without_residue(left: Array, largest: float) -> Array:
+    """Zero in place of heights that are the round-off of those given, the largest in size."""
+    size = sum(float(np.abs(left[i : i + ROWS]).sum()) for i in range(0, len(left), ROWS))
+    if size <= _RESIDUE * largest * left.size:
+        left[...] = 0.0
+    return left
 
 
 def _centred(values: Array) -> Array:
@@ -276,7 +287,9 @@ def read_height_map(
     source, is_periodic = file.name, None
     if ending == ".npy":
         size = needed(size, "pixel_size", _SIZES, file)
-        heights = _load_npy(file) * length_unit(unit, file)
+        factor = length_unit(unit, file)
+        with file.open("rb") as content:
+            heights = read_map(content, check_size(file), str(file), factor)
     elif ending in MATRICES:
         heights, size = _text_map(file, size, unit, holes=holes)
     elif ending == ".xyz":
@@ -284,7 +297,8 @@ def read_height_map(
             raise given_twice("pixel_size", pixel_size, file)
         factor = length_unit(unit, file)
         raw, own = read_points(file, holes=holes)
-        heights, size = raw * factor, (own[0] * factor, own[1] * factor)
+        raw *= factor
+        heights, size = raw, (own[0] * factor, own[1] * factor)
     elif ending == ".sdf" and is_surface_data_text(file):
         for field, given in (("unit", unit), ("pixel_size", pixel_size)):
             if given is not None:
@@ -314,7 +328,8 @@ def _text_map(
     if header.extent is not None:
         size = (header.extent[0] / raw.shape[0], header.extent[1] / raw.shape[1])
     assert size is not None
-    return raw * length_unit(header.unit or unit, file), size
+    raw *= length_unit(header.unit or unit, file)
+    return raw, size
 
 
 def _checked_size(given: float | Pair | None) -> Pair | None:
@@ -326,15 +341,6 @@ def _checked_size(given: float | Pair | None) -> Pair | None:
             "HeightMap.pixel_size", given, "be one or two positive, finite lengths", unit="m"
         )
     return pair
-
-
-def _load_npy(file: Path) -> Array:
-    with file.open("rb") as content:
-        raw = read_array(content, check_size(file), str(file))
-    if raw.dtype.kind not in "fiu":
-        raise DescriptionError("HeightMap.heights", str(raw.dtype), "be real numbers")
-    check_limit("PIXELS", raw.size, str(file))
-    return raw.astype(np.float64)
 
 
 def _checked(heights: Array, file: Path, *, holes: bool) -> Array:
@@ -357,7 +363,8 @@ def _checked(heights: Array, file: Path, *, holes: bool) -> Array:
             unit="m",
             hint="check the file" if missing.all() else HOLES,
         )
-    largest = float(np.abs(given[~missing]).max())
+    there = {"where": ~missing, "initial": 0.0}  # not by a map of sizes
+    largest = max(float(given.max(**there)), -float(given.min(**there)))
     if largest > LARGEST:
         raise DescriptionError(
             "HeightMap.heights",
@@ -366,4 +373,7 @@ def _checked(heights: Array, file: Path, *, holes: bool) -> Array:
             unit="m",
             hint="no length is as large; check the unit",
         )
-    return np.where(missing, np.nan, given) if missing.any() else given
+    if missing.any():
+        given = given if given.flags.writeable else given.copy()
+        given[missing] = np.nan
+    return given

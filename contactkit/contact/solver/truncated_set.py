@@ -33,9 +33,9 @@ REDUCTIONS = (
     (0.01, 0.1),
     (3e-4, 0.03),
 )
-# The same presumed of an extrapolated start, whose first correction shows which pixels leave. Curves
-# of twelve loads in steps of 1 % take 0.55 to 0.63 of single solves, without this 0.62 to 0.76;
-# a reduction to 0.03 in place of 0.1 takes 2 % more.
+# The same presumed of an extrapolated start, whose first correction shows which pixels leave.
+# Curves of twelve loads in steps of 1 % take 0.55 to 0.63 of single solves, without this 0.62 to
+# 0.76; a reduction to 0.03 in place of 0.1 takes 2 % more.
 EXTRAPOLATED = 0.02
 # Of the last reduction: the violation is a maximum, the linear residual a norm. 0.1 takes 1 % more
 # applications, 1 takes 1 % fewer.
