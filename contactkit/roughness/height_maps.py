@@ -363,8 +363,9 @@ def _checked(heights: Array, file: Path, *, holes: bool) -> Array:
             unit="m",
             hint="check the file" if missing.all() else HOLES,
         )
-    there = {"where": ~missing, "initial": 0.0}  # not by a map of sizes
-    largest = max(float(given.max(**there)), -float(given.min(**there)))
+    known = ~missing  # not by a map of sizes, which is as large again
+    highest, lowest = (float(found(initial=0.0, where=known)) for found in (given.max, given.min))
+    largest = max(highest, -lowest)
     if largest > LARGEST:
         raise DescriptionError(
             "HeightMap.heights",
