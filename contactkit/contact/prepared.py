@@ -115,11 +115,11 @@ class PreparedInterface:
 
         Grids of the solver; heights, if they are no map that the scene holds; their dimensionless
         copy, in whose place comes the displacement, pressure and gap; and the numbers of the pixels
-        in contact, of an isolated one a patch as well: to 15 % with a fifth of the map in contact,
-        a sixth less with a twentieth. What effects add is left out.
+        in contact, of an isolated one a patch as well: to 15 % up to a fifth of the map in contact.
+        What effects add is left out.
         """
-        maps = 6.5 if self.grid.periodic else 7.5
-        return self.solver.nbytes + int(maps * self.heights.nbytes)
+        maps = 5 if self.grid.periodic else 6
+        return self.solver.nbytes + maps * self.heights.nbytes
 
     def open(self, heights: Map) -> Map:
         """Return heights with the holes of the interface masked, as the solver takes them."""
