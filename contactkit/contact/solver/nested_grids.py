@@ -277,18 +277,20 @@ def _grid(
     reach, kind = (2, np.float64) if stiffening > STIFFEST else (1, np.float32)
     metric = CellInverse(response, shape, pixel, symbols.periodic, loops, reach, kind)
     is_stiff = stiffening > STIFF
+    lender: Convolution | None
     single, with_frame = np.float32, (shape[0] + 2, shape[1] + 2)
     if finest is None:
         assert exact is not None
         pressure, gap, room = exact.source, exact.target, _Room(exact.target)
+        lender = exact
         framed, target = np.zeros(with_frame, single), np.zeros(shape, single)
         change = np.zeros(shape[0] * shape[1], single)
     else:
         room, change = finest.room, finest.change[: shape[0] * shape[1]]
+        lender = finest.exact
         pressure, gap = room.take(shape), room.take(shape)
         framed, target = room.take(with_frame, single), room.take(shape, single)
-    edges, lender = symbols.periodic, exact or finest.exact
-    quick = Convolution(shape, half, edges, transforms, single, lender, (framed, target))
+    quick = Convolution(shape, half, symbols.periodic, transforms, single, lender, (framed, target))
     two_level = None
     if decay <= PLATE and not is_stiff:
         two_level = _two_level(symbols, shape, symbol, fast, loops, framed)
