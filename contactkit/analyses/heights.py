@@ -56,6 +56,8 @@ def surface_heights(
     >>> bool(abs(found.heights.std() / 1e-9 - 1.0) < 0.1)
     True
     """
+    import numpy as np
+
     scene = ContactScene(
         interface=Interface(lower=Body(surface=surface)),
         window=window if window is not None else Window(),
@@ -63,4 +65,4 @@ def surface_heights(
         effects=(),
     )
     grid = grid_of(scene, accuracy)
-    return SurfaceHeights(realise(surface, grid), grid.pixel_size, grid.periodic)
+    return SurfaceHeights(np.array(realise(surface, grid)), grid.pixel_size, grid.periodic)

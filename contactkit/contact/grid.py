@@ -72,9 +72,17 @@ def _agree(given: float | None, own: float, field: str) -> None:
 
 
 def combined_heights(scene: ContactScene, grid: Grid) -> Map:
-    """Sum of the heights of both bodies [m], (ny, nx)."""
-    lower, upper = scene.interface.lower.surface, scene.interface.upper.surface
-    return realise(lower, grid) + realise(upper, grid)
+    """Sum of the heights of both bodies [m], (ny, nx), read-only.
+
+    A given map beside a flat body is not copied: a large one is held once.
+    """
+    lower, upper = (realise(body.surface, grid) for body in scene.interface.bodies)
+    for one, other in ((lower, upper), (upper, lower)):
+        if not one.flags.writeable and not other.any():
+            return one
+    total = lower + upper
+    total.flags.writeable = False
+    return total
 
 
 def holes_of(scene: ContactScene) -> NDArray[np.bool_] | None:

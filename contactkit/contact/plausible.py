@@ -33,8 +33,8 @@ _NARROWEST, _WIDEST = 1e-9, 1.0  # side of the window [m]: some atoms, a machine
 
 def is_even(heights: Map) -> bool:
     """Whether heights (ny, nx) [m] are a plane parallel to that of contact, but for round-off."""
-    spread, largest = float(np.ptp(heights)), float(np.abs(heights).max(initial=0.0))
-    return spread <= ROUNDED * largest
+    highest, lowest = float(heights.max()), float(heights.min())  # without a map of sizes
+    return highest - lowest <= ROUNDED * max(highest, -lowest)
 
 
 def check_sizes(contact: SolvedContact, *, even: bool) -> tuple[ValidityNumber, ...]:

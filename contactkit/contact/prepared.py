@@ -85,7 +85,6 @@ class PreparedInterface:
     def __init__(self, scene: ContactScene, grid: Grid, threads: int) -> None:
         self.grid, self._threads = grid, threads
         self.heights = combined_heights(scene, grid)
-        self.heights.flags.writeable = False
         self.holes = holes_of(scene)
         self._deform(scene.demand(Compliance).prepare(scene, grid))
 
@@ -101,7 +100,9 @@ class PreparedInterface:
             threads=self._threads,
         )
         self.self_influence = self.solver.self_influence
-        self._bodies = Once(lambda: tuple(self._operator(make) for make in compliances))
+        # Made once called for; not by a `Once`, whose function would hold this object in a circle:
+        # the maps of the solver would outlive the plan until the garbage collector runs.
+        self._bodies = tuple[Convolution, ...]()
         self._lock = threading.Lock()
 
     @property
@@ -135,11 +136,12 @@ class PreparedInterface:
     def memory(self) -> int:
         """Memory of a solve at its peak [bytes], with what is prepared.
 
-        Grids of the solver, heights of both bodies, their dimensionless copy, pressure,
-        displacement and gap of the result, and one map or a patch that a solve works on: to 15 % up
-        to a fifth of the map in contact. What effects add is left out.
+        Grids of the solver; heights, if they are no map that the scene holds; their dimensionless
+        copy, in whose place comes the displacement, pressure and gap; and the numbers of the pixels
+        in contact, of an isolated one a patch as well: to 15 % up to a fifth of the map in contact.
+        What effects add is left out.
         """
-        maps = 5 if self.grid.periodic else 7
+        maps = 5 if self.grid.periodic else 6
         return self.solver.nbytes + maps * self.heights.nbytes
 
     def open(self, heights: Map) -> Map:
@@ -151,7 +153,8 @@ class PreparedInterface:
         if len(self.compliances) == 1:
             return (total,)
         with self._lock:  # a convolution owns its maps
-            return tuple(body(pressure) for body in self._bodies())
+            self._bodies = self._bodies or tuple(self._operator(make) for make in self.compliances)
+            return tuple(body(pressure) for body in self._bodies)
 
     def _operator(self, make_symbol: SymbolMaker) -> Convolution:
         shape, periodic = self.grid.shape, self.grid.edges

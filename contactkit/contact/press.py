@@ -9,7 +9,7 @@ from attrs import evolve
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError
-from ..roughness.height_maps import Trend, detrended
+from ..roughness.height_maps import Trend, detrended, tilt_of
 from ..scene.interface import Body, Interface
 from ..scene.loading import Pressing
 from ..scene.materials import Material, Solid, Stack
@@ -193,8 +193,6 @@ def _tilt(surface: Heights, trend: Trend) -> str:
     """State the tilt that is left in a map: the rise of the plane that fits it best."""
     if trend in ("tilt", "curvature"):
         return f"heights less their {trend}"
-    given = surface.heights
-    plane = detrended(given, "mean") - detrended(given, "tilt")
-    rise, rms = float(np.ptp(plane)), float(np.std(given - plane))
+    rise, rms = tilt_of(surface.heights)
     over = f", {rise / rms:.2g} of the rms height" if rms > 1e-9 * rise else ""
     return f"heights as given: no tilt removed, theirs rises by {rise:.2g} m over the window{over}"

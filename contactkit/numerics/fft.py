@@ -24,6 +24,7 @@ __all__ = [
     "convolution_of",
     "fast_transforms_installed",
     "make_transform",
+    "mirrored_half",
     "scale_spectrum",
     "spectrum_shape",
 ]
@@ -48,6 +49,7 @@ LINE = 64  # bytes by which rows are made longer against that: a cache line; 256
 # Of rows that each thread of ducc0 takes at a time, where they are copied: no trend from 2**14 to
 # 2**20, 1.15 times the time at 2**22.
 ROWS_BYTES = 2**18
+MIRRORED = 1e-13  # over the largest of a symbol: round-off of the transform that made it
 STRIP = 32  # columns that each thread of ducc0 takes at a time beyond CACHED_BYTES
 
 
@@ -63,16 +65,34 @@ def fast_transforms_installed() -> bool:
 
 
 def scale_spectrum(spectrum: Array, symbol: Array) -> None:
-    """Multiply a spectrum by a real symbol, in place.
+    """Multiply a spectrum by a real symbol, in place; of a mirrored one the half is enough.
 
     Examples
     --------
-    >>> spectrum = np.array([1.0 + 2.0j])
-    >>> scale_spectrum(spectrum, np.array([2.0]))
-    >>> spectrum
-    array([2.+4.j])
+    >>> spectrum = np.array([[1.0 + 2.0j], [1.0], [1.0], [1.0]])
+    >>> scale_spectrum(spectrum, np.array([[2.0], [3.0], [4.0]]))
+    >>> spectrum.ravel()
+    array([2.+4.j, 3.+0.j, 4.+0.j, 3.+0.j])
     """
-    spectrum *= symbol
+    half = symbol.shape[0]
+    spectrum[:half] *= symbol
+    spectrum[half:] *= symbol[spectrum.shape[0] - half : 0 : -1]
+
+
+def mirrored_half(symbol: Array) -> Array:
+    """Rows of a symbol that the others mirror; all rows if they do not, as of a coupling of shear.
+
+    Examples
+    --------
+    >>> mirrored_half(np.array([[2.0], [3.0], [4.0], [3.0]])).ravel()
+    array([2., 3., 4.])
+    >>> mirrored_half(np.array([[0.0], [3.0], [0.0], [-3.0]])).size
+    4
+    """
+    n = symbol.shape[0]
+    first, last = symbol[1 : (n + 1) // 2], symbol[: n // 2 : -1]
+    off = float(np.abs(first - last).max(initial=0.0))
+    return symbol[: n // 2 + 1] if off <= MIRRORED * float(np.abs(symbol).max()) else symbol
 
 
 def _scipy_transform(
@@ -150,7 +170,7 @@ def _ducc_periodic(
 
 def _ducc_pitched(symbol: Array, threads: int, scale: Scale, spectrum: Array, nx: int) -> Transform:
     """The same for maps whose rows collide in the cache."""
-    rows = _Rows((symbol.shape[0], nx), nx, symbol.dtype, threads)
+    rows = _Rows((spectrum.shape[0], nx), nx, symbol.dtype, threads)
 
     def transform(source: Array, target: Array) -> None:
         rows.forth(source, spectrum)
@@ -162,13 +182,15 @@ def _ducc_pitched(symbol: Array, threads: int, scale: Scale, spectrum: Array, nx
     return transform
 
 
-def _ducc_free(symbol: Array, threads: int, scale: Scale, spectrum: Array) -> Transform:
+def _ducc_free(
+    symbol: Array, threads: int, scale: Scale, spectrum: Array, shape: tuple[int, int]
+) -> Transform:
     """Rows, then columns: all at once, or if they exceed the cache a strip of them forth and back.
 
     What a strip copies costs more than it saves on small maps.
     """
     fft: Any = importlib.import_module("ducc0").fft
-    ny, nx = symbol.shape[0] // 2, symbol.shape[1] - 1
+    ny, nx = shape
     top, rows = spectrum[:ny], _Rows((ny, nx), 2 * nx, symbol.dtype, threads)
     is_small = spectrum.shape[0] > ny
     width = nx + 1 if is_small else STRIP * threads
@@ -241,7 +263,8 @@ def make_transform(
     ----------
     symbol : ndarray
         Real symbol on the half spectrum: ``(ny, nx // 2 + 1)`` if periodic, else that of the
-        doubled map, ``(2 ny, nx + 1)``. Its dtype is the precision of the transforms.
+        doubled map, ``(2 ny, nx + 1)``; or `mirrored_half` of it. Its dtype is the precision of the
+        transforms.
     shape : tuple of int
         Pixels ``(ny, nx)`` of the map.
     periodic : bool, "x" or "y"
@@ -268,12 +291,13 @@ def make_transform(
     symbol = symbol / padded  # once, instead of after every inverse transform
     if spectrum is None:
         kind = np.result_type(symbol.dtype, np.complex64)
-        spectrum = np.zeros(spectrum_shape(symbol.shape, symbol.dtype, periodic, fast), kind)
+        half = shape[0] * (1 if periodic in (True, "y") else 2), symbol.shape[1]
+        spectrum = np.zeros(spectrum_shape(half, symbol.dtype, periodic, fast), kind)
     spectrum = spectrum[:, : symbol.shape[1]]
     if isinstance(periodic, str):
         return _scipy_transform(symbol, periodic == "x", threads, scale, spectrum)
     if fast and not periodic:
-        return _ducc_free(symbol, threads, scale, spectrum)
+        return _ducc_free(symbol, threads, scale, spectrum, shape)
     if fast:
         collides = symbol.dtype.itemsize == 4 and shape[1] * 4 % PITCH == 0  # in double: no gain
         transform = _ducc_pitched if collides else _ducc_periodic

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DescriptionError
-from ..reading.arrays import read_array
+from ..reading.arrays import read_map
 from ..reading.limits import check_limit, check_size
 from ..reading.named_files import check_digest, digest_of, existing
 from ..validators import LARGEST
@@ -26,17 +26,21 @@ from .text_maps import HOLES, read_header, read_matrix, read_points
 
 __all__ = [
     "HeightMap",
+    "Tilt",
     "Trend",
     "checksum",
+    "detrend",
     "detrended",
     "filled",
     "read_height_map",
+    "tilt_of",
 ]
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
 Trend = Literal["none", "mean", "tilt", "curvature"]
 
+ROWS = 64  # rows of a map that are worked on at a time: 2 MB of 4096 pixels
 _SIZES = "1e-9 or (2e-9, 1e-9) [m]"  # example of a cure
 _RESIDUE = 8.0 * float(np.finfo(np.float64).eps)  # of the heights given, that detrending leaves
 
@@ -69,15 +73,20 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
     >>> abs(detrended(1.0 + 2.0 * x - y)).max() < 1e-14, detrended(x * x, "tilt").round(12)[0]
     (np.True_, array([ 1., -1., -1.,  1.]))
     """
-    left = np.array(heights, dtype=np.float64)
+    return detrend(np.array(heights, dtype=np.float64), trend)
+
+
+def detrend(left: Array, trend: Trend) -> Array:
+    """`detrended` in the memory of the heights, if they have no holes: a large map is held once."""
     if trend == "none":
         return left
     known = np.isfinite(left)
     if not known.all():
         return _detrended_around_holes(left, known, trend)
+    largest = max(float(left.max()), -float(left.min()))
     left -= left.mean()
     if trend == "mean":
-        return _without_residue(left, heights)
+        return _without_residue(left, largest)
     y, x = (_centred(np.linspace(-1.0, 1.0, n) if n > 1 else np.zeros(1)) for n in left.shape)
     shapes = [(y, np.ones_like(x)), (np.ones_like(y), x)]
     if trend == "curvature":
@@ -86,8 +95,10 @@ def detrended(heights: Array, trend: Trend = "tilt") -> Array:
     for of_y, of_x in shapes:
         square = float(of_y @ of_y) * float(of_x @ of_x)
         if square > 1e-12:  # a grid of one or two pixels has no tilt or no curvature
-            left -= (of_y @ left @ of_x / square * of_y)[:, None] * of_x
-    return _without_residue(left, heights)
+            along_y = of_y @ left @ of_x / square * of_y
+            for i in range(0, len(left), ROWS):
+                left[i : i + ROWS] -= along_y[i : i + ROWS, None] * of_x
+    return _without_residue(left, largest)
 
 
 def _detrended_around_holes(heights: Array, known: NDArray[np.bool_], trend: Trend) -> Array:
@@ -111,7 +122,44 @@ def _detrended_around_holes(heights: Array, known: NDArray[np.bool_], trend: Tre
     found, *_ = np.linalg.lstsq(np.array(matrix), np.array(right), rcond=1e-12)
     for (i, j), factor in zip(powers, found.tolist(), strict=True):
         values -= factor * (y**i)[:, None] * x**j
-    return np.where(known, _without_residue(values * known, heights[known]), np.nan)
+    largest = float(np.abs(heights[known]).max(initial=0.0))
+    return np.where(known, _without_residue(values * known, largest), np.nan)
+
+
+class Tilt(NamedTuple):
+    """Rise of the plane that fits a map best over the map, and rms of the heights about it."""
+
+    rise: float
+    rms: float
+
+
+def tilt_of(heights: Array) -> Tilt:
+    """Tilt of a map without holes, as `detrended` takes it off, in the unit of the heights.
+
+    A few rows at a time: a large map is not copied.
+
+    Examples
+    --------
+    >>> y, x = np.mgrid[:3.0, :4.0]
+    >>> rise, rms = tilt_of(1.0 + 2.0 * x - y)
+    >>> round(rise, 12), rms < 1e-14
+    (8.0, True)
+    """
+    (ny, nx), mean = heights.shape, float(heights.mean())
+    y, x = (_centred(np.linspace(-1.0, 1.0, n) if n > 1 else np.zeros(1)) for n in heights.shape)
+    along_y = float(y @ (heights.sum(axis=1) - nx * mean)) / max(float(y @ y) * nx, 1e-300)
+    along_x = float(x @ (heights.sum(axis=0) - ny * mean)) / max(float(x @ x) * ny, 1e-300)
+    total = about = 0.0
+    for i in range(0, ny, ROWS):
+        some = heights[i : i + ROWS] - mean
+        total += float(np.einsum("ij,ij->", some, some))
+        some -= along_y * y[i : i + ROWS, None] + along_x * x
+        about += float(np.einsum("ij,ij->", some, some))
+    largest = max(float(heights.max()), -float(heights.min()))
+    if math.sqrt(total / heights.size) <= _RESIDUE * largest:  # nothing but round-off
+        return Tilt(0.0, 0.0)
+    rise = abs(along_y) * float(np.ptp(y)) + abs(along_x) * float(np.ptp(x))
+    return Tilt(rise, math.sqrt(about / heights.size))
 
 
 def filled(heights: Array) -> Array:
@@ -131,10 +179,12 @@ def filled(heights: Array) -> Array:
     return np.asarray(heights[tuple(nearest)])
 
 
-def _without_residue(left: Array, given: Array) -> Array:
-    """Zero in place of heights that are the round-off of those given."""
-    largest = float(np.abs(given).max(initial=0.0))
-    return np.zeros_like(left) if float(np.abs(left).mean()) <= _RESIDUE * largest else left
+def _without_residue(left: Array, largest: float) -> Array:
+    """Zero in place of heights that are the round-off of those given, the largest in size."""
+    size = sum(float(np.abs(left[i : i + ROWS]).sum()) for i in range(0, len(left), ROWS))
+    if size <= _RESIDUE * largest * left.size:
+        left[...] = 0.0
+    return left
 
 
 def _centred(values: Array) -> Array:
@@ -237,7 +287,9 @@ def read_height_map(
     source, is_periodic = file.name, None
     if ending == ".npy":
         size = needed(size, "pixel_size", _SIZES, file)
-        heights = _load_npy(file) * length_unit(unit, file)
+        factor = length_unit(unit, file)
+        with file.open("rb") as content:
+            heights = read_map(content, check_size(file), str(file), factor)
     elif ending in MATRICES:
         heights, size = _text_map(file, size, unit, holes=holes)
     elif ending == ".xyz":
@@ -245,7 +297,8 @@ def read_height_map(
             raise given_twice("pixel_size", pixel_size, file)
         factor = length_unit(unit, file)
         raw, own = read_points(file, holes=holes)
-        heights, size = raw * factor, (own[0] * factor, own[1] * factor)
+        raw *= factor
+        heights, size = raw, (own[0] * factor, own[1] * factor)
     elif ending == ".sdf" and is_surface_data_text(file):
         for field, given in (("unit", unit), ("pixel_size", pixel_size)):
             if given is not None:
@@ -275,7 +328,8 @@ def _text_map(
     if header.extent is not None:
         size = (header.extent[0] / raw.shape[0], header.extent[1] / raw.shape[1])
     assert size is not None
-    return raw * length_unit(header.unit or unit, file), size
+    raw *= length_unit(header.unit or unit, file)
+    return raw, size
 
 
 def _checked_size(given: float | Pair | None) -> Pair | None:
@@ -287,15 +341,6 @@ def _checked_size(given: float | Pair | None) -> Pair | None:
             "HeightMap.pixel_size", given, "be one or two positive, finite lengths", unit="m"
         )
     return pair
-
-
-def _load_npy(file: Path) -> Array:
-    with file.open("rb") as content:
-        raw = read_array(content, check_size(file), str(file))
-    if raw.dtype.kind not in "fiu":
-        raise DescriptionError("HeightMap.heights", str(raw.dtype), "be real numbers")
-    check_limit("PIXELS", raw.size, str(file))
-    return raw.astype(np.float64)
 
 
 def checked_heights(heights: Array, file: Path, *, holes: bool) -> Array:
@@ -325,7 +370,9 @@ def checked_heights(heights: Array, file: Path, *, holes: bool) -> Array:
             unit="m",
             hint="check the file" if missing.all() else HOLES,
         )
-    largest = float(np.abs(given[~missing]).max())
+    known = ~missing  # not by a map of sizes, which is as large again
+    highest, lowest = (float(found(initial=0.0, where=known)) for found in (given.max, given.min))
+    largest = max(highest, -lowest)
     if largest > LARGEST:
         raise DescriptionError(
             "HeightMap.heights",
@@ -334,4 +381,7 @@ def checked_heights(heights: Array, file: Path, *, holes: bool) -> Array:
             unit="m",
             hint="no length is as large; check the unit",
         )
-    return np.where(missing, np.nan, given) if missing.any() else given
+    if missing.any():
+        given = given if given.flags.writeable else given.copy()
+        given[missing] = np.nan
+    return given

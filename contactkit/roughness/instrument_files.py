@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from ..errors import DescriptionError
 from ..reading.archives import checked_archive
-from ..reading.arrays import read_array
+from ..reading.arrays import read_map
 from ..reading.limits import check_size, limit_of
 from ..reading.texts import from_json, read_text
 
@@ -140,7 +140,7 @@ def _answered(folder: Path, file: Path) -> Channel:
     if "unreadable" in found:
         raise unreadable(file, found["unreadable"])
     with (folder / HEIGHTS).open("rb") as content:
-        heights = read_array(content, check_size(folder / HEIGHTS), file.name)
+        heights = read_map(content, check_size(folder / HEIGHTS), file.name)
     dy, dx = found["pixel_size"]
     return Channel(heights, (dy, dx), found["source"], found["is_periodic"])
 

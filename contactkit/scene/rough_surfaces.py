@@ -220,7 +220,7 @@ class Measured(Surface):
 def _read(surface: Measured) -> Heights:
     import numpy as np
 
-    from ..roughness.height_maps import detrended, filled, read_height_map
+    from ..roughness.height_maps import detrend, filled, read_height_map
 
     found = read_height_map(
         surface.path,
@@ -229,11 +229,14 @@ def _read(surface: Measured) -> Heights:
         checksum=surface.checksum,
         holes=surface.holes != "refused",
     )
-    heights: Any = detrended(found.heights, surface.detrend)
+    # In place, and read-only so that `Heights` takes it as it is: a large map is held once.
+    heights: Any = detrend(found.heights, surface.detrend)
     if surface.flipped:
-        heights = -heights
+        np.negative(heights, out=heights)
     if surface.holes != "refused":
         heights = filled(heights) if surface.holes == "fill" else np.ma.masked_invalid(heights)
+    if not np.ma.isMaskedArray(heights):
+        heights.flags.writeable = False
     return Heights(
         heights=heights,
         pixel_size=found.pixel_size,
@@ -270,6 +273,9 @@ def _as_map(value: Any) -> Map:
     holes = np.ma.getmaskarray(value) if np.ma.is_masked(value) else None
     if holes is not None:  # kept until `Heights` takes the mask
         return np.ma.MaskedArray(np.array(np.ma.getdata(value), dtype=float, order="C"), holes)
+    is_fixed = given.flags.owndata and not given.flags.writeable
+    if is_fixed and given.dtype == np.float64 and given.flags.c_contiguous:
+        return given  # nobody writes into it: a large map is held once
     made = np.array(given, dtype=float, order="C")
     made.flags.writeable = False
     return made
@@ -296,7 +302,8 @@ class Heights(Surface):
     Parameters
     ----------
     heights : array_like (ny, nx)
-        Heights out of the body [m], peaks positive; may be masked.
+        Heights out of the body [m], peaks positive; may be masked. They are copied, unless they
+        are a read-only array of doubles that owns its memory, as of a large map.
     pixel_size : float or (float, float)
         Size of a pixel [m]; a pair is (dy, dx).
     is_periodic : bool, optional
@@ -427,7 +434,7 @@ class Heights(Surface):
 
     def heights_on(self, grid: Grid) -> Map:
         """See `Surface.heights_on`."""
-        return self.heights.copy()
+        return self.heights
 
 
 @frozen(kw_only=True)

@@ -136,6 +136,8 @@ class Surface(Described):
     def heights_on(self, grid: Grid) -> Map:
         """Heights [m] on a grid, (ny, nx), peaks positive; by `realise`, which checks them.
 
+        A map that the surface keeps is returned read-only; callers do not write into any.
+
         Raises
         ------
         PlanError
@@ -442,7 +444,7 @@ class Flat(Surface):
         """See `Surface.heights_on`."""
         import numpy as np
 
-        return np.zeros(grid.shape)
+        return np.broadcast_to(0.0, grid.shape)  # without memory of its own
 
 
 @frozen(kw_only=True)

@@ -67,6 +67,11 @@ PAGES: Mapping[str, Page] = {
         0.2,
         (("demands/peers_data.py",), ("demands", "--draw", "accuracy-and-cost")),
     ),
+    "large-maps": Page(
+        "demands/: what tests/benchmarks/peers/large.py left in out/bench",
+        0.2,
+        (("demands/large_data.py",), ("demands", "--draw", "accuracy-and-cost")),
+    ),
     "tutorials": Page("tutorials/: pages, figures and notebooks", 2, (("tutorials",),)),
     "gallery": Page(
         "gallery/: all pages at full size, kept in out/gallery", 240, (("gallery.py",),)

@@ -220,8 +220,10 @@ def test_an_extrapolation_uses_no_more_solutions_than_it_can_trust():
     near = 1.0, np.ones((2, 2))
     almost = 1.0 + 1e-9, 1.1 * np.ones((2, 2))
     lighter = 0.9, 0.9 * np.ones((2, 2))
-    np.testing.assert_array_equal(initial_pressure([near, almost], 1.1, True, (2, 2)), near[1])
-    found = initial_pressure([near, lighter], 1.1, True, (2, 2))
+    np.testing.assert_array_equal(
+        initial_pressure([near, almost], 1.1, True, (2, 2)).pressure, near[1]
+    )
+    found = initial_pressure([near, lighter], 1.1, True, (2, 2)).pressure
     assert found == pytest.approx(np.full((2, 2), 1.0 + 0.1 * np.log(1.1) / -np.log(0.9)))
 
 
@@ -237,3 +239,56 @@ def test_pixels_at_the_bound_stay_there_in_an_extrapolation():
     results = [ck.solve(plan.with_loading(ck.Pressing(pressure=p))) for p in (3.6e9, 3.4e9, 3.2e9)]
     cold = applications(ck.solve(plan))
     assert applications(ck.solve(plan, start=results[::-1])) <= MARGIN * cold
+
+
+# Curves against single solves -----------------------------------------------------------------
+
+STEEL = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
+HARD = ck.HardnessLimit(rule=ck.ConstantHardness(hardness=6e9))
+
+
+def film(stiffness):
+    material = ck.Material(young_modulus=stiffness * 210e9, poisson_ratio=0.3)
+    return ck.Stack(layers=(ck.Layer(material=material, thickness=4e-9),), substrate=STEEL)
+
+
+CURVES = {  # what deforms, whether it repeats, effects
+    "periodic": (STEEL, True, ()),
+    "isolated": (STEEL, False, ()),
+    "hardness": (STEEL, True, (HARD,)),
+    "soft film": (film(3.0), True, ()),
+    "stiff film": (film(100.0), False, ()),
+}
+
+
+def cost_of_a_curve(name, step, n, rtol):
+    """Applications of a curve of loads, over those of single solves."""
+    solid, periodic, effects = CURVES[name]
+    rough = ck.SelfAffineRoughness(rms=2e-9, hurst=0.8, rolloff=2.5e-7, cutoff=6.4e-8, seed=3)
+    scene = ck.ContactScene(
+        interface=ck.Interface(lower=ck.Body(solid=solid), upper=ck.Body(surface=rough)),
+        window=ck.Window(width=1e-6, periodic=periodic),
+        loading=ck.Pressing(pressure=4e8),
+        effects=(ck.HalfSpace() if solid is STEEL else ck.LayeredHalfSpace(), *effects),
+    )
+    plan = ck.plan(scene, ck.Accuracy(grid=128, rtol=rtol))
+    loads = 4e8 * step ** -np.arange(float(n))
+    single = sum(
+        applications(ck.solve(plan.with_loading(ck.Pressing(pressure=float(p))))) for p in loads
+    )
+    return ck.load_curve(plan, pressures=loads).applications.sum() / single
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", quick(list(CURVES), 0))
+@pytest.mark.parametrize("step", [1.2, 1.5, 4.0])
+def test_a_curve_of_far_loads_costs_no_more_than_single_solves(name, step):
+    assert cost_of_a_curve(name, step, 7, 1e-8) <= 1.02
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", quick(["periodic", "isolated", "hardness", "soft film"], 0))
+@pytest.mark.parametrize(("rtol", "most"), [(1e-3, 0.6), (1e-5, 0.66), (1e-8, 0.75)])
+def test_a_curve_of_close_loads_costs_about_half_of_single_solves(name, rtol, most):
+    """To 1e-8 a digit takes its two applications, however good the initial guess is."""
+    assert cost_of_a_curve(name, 1.02, 10, rtol) <= most

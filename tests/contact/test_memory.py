@@ -35,7 +35,10 @@ def planned(n, periodic):
 @pytest.mark.parametrize("periodic", quick([True, False], 0))
 def test_a_plan_states_the_memory_of_its_solve(periodic):
     n = 320
-    ck.solve(planned(n, periodic))  # imports and compiled code are no part of it
+    warm = planned(n, periodic)
+    assert ck.solve(warm).contact.any()
+    assert "memory" in str(warm)
+    del warm  # imports and compiled code are no part of it
     gc.collect()
     tracemalloc.start()
     try:

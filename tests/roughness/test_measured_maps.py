@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import tracemalloc
 import warnings
 from types import SimpleNamespace
 
@@ -13,6 +15,7 @@ import contactkit as ck
 from contactkit.errors import DescriptionError
 from contactkit.roughness import height_maps
 from contactkit.roughness.instrument_channels import read_channel
+from contactkit.scene.window import Grid
 
 pytestmark = pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 
@@ -359,3 +362,50 @@ def test_a_plane_is_all_tilt():
         warnings.simplefilter("ignore")
         plane = ck.press(1e-10 * X, 1e-8, STEEL, 50e6, periodic=False)
     assert plane.message.endswith("over the window")
+
+
+# Memory -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", ["npy", "npy, columns first, single", "csv"])
+@pytest.mark.parametrize("trend", ["tilt", "none"])
+def test_a_map_is_read_in_pieces(tmp_path, kind, trend):
+    """Beside the map itself, levelled and turned, there is never another one of its size."""
+    n = 1024 if kind.startswith("npy") else 256
+    y, x = np.mgrid[:n, :n] / n
+    heights = 1e-9 * (np.sin(40.0 * x * y) + x)
+    path = tmp_path / f"map.{kind[:3]}"
+    if kind == "csv":
+        np.savetxt(path, heights, fmt="%.6e", delimiter=",")
+    else:
+        np.save(path, heights if kind == "npy" else np.asfortranarray(heights, np.float32))
+    grid = Grid((n, n), (1e-8, 1e-8), False)
+
+    def surface():
+        given = {"pixel_size": 1e-8, "unit": "m", "detrend": trend, "flipped": True}
+        return ck.Measured(path=str(path), **given)
+
+    surface().heights_on(grid)  # imports are no part of it
+    gc.collect()
+    tracemalloc.start()
+    try:
+        read = surface()
+        found = read.heights_on(grid)
+        held, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    expected = -height_maps.detrended(heights, trend)
+    np.testing.assert_allclose(found, expected, atol=1e-6 * np.ptp(heights))
+    assert held < 1.1 * heights.nbytes
+    assert peak < (1.8 if kind.startswith("npy") else 2.0) * heights.nbytes
+
+
+def test_a_read_only_map_is_shared_and_any_other_copied():
+    given = HEIGHTS.copy()
+    assert ck.Heights(heights=given, pixel_size=1e-8).heights is not given
+    given.flags.writeable = False
+    surface = ck.Heights(heights=given, pixel_size=1e-8)
+    assert surface.heights is given
+    view = given[:]  # of memory that its owner may write into again
+    assert not np.shares_memory(ck.Heights(heights=view, pixel_size=1e-8).heights, given)
+    assert ck.press(given, 1e-8, STEEL, 50e6).heights is given

@@ -229,7 +229,7 @@ def _contact_of(
         plan.grid,
         found.pressure,
         displacement,
-        found.gap,
+        found.into_gap(),  # the last use of the distance: a map less at the end of a solve
         plan.accuracy.threads,
         bounded,
         None,

@@ -92,7 +92,14 @@ class HeldContact(NamedTuple):
     @property
     def gap(self) -> Map:
         """Gap between the surfaces [m], zero where they would overlap."""
-        gap = np.maximum(self.distance, 0.0)
+        return self._gap(np.empty_like(self.distance))
+
+    def into_gap(self) -> Map:
+        """The same in the memory of `distance`, which is lost."""
+        return self._gap(self.distance)
+
+    def _gap(self, out: Map) -> Map:
+        gap = np.maximum(self.distance, 0.0, out=out)
         if self.held.tension is not None:  # which is steep: round-off in contact would change it
             gap[self.touching] = 0.0
         return gap

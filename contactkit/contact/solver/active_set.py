@@ -37,7 +37,9 @@ class SetOutcome(NamedTuple):
     is_stalled: bool = False
 
 
-def improve(grid: GridLevel, problem: ContactProblem, rtol: float) -> SetOutcome:
+def improve(
+    grid: GridLevel, problem: ContactProblem, rtol: float, is_extrapolated: bool = False
+) -> SetOutcome:
     """Iterate on one grid until the relative residual is `rtol`, or no longer falls.
 
     Parameters
@@ -48,6 +50,8 @@ def improve(grid: GridLevel, problem: ContactProblem, rtol: float) -> SetOutcome
         Dimensionless problem on this grid.
     rtol : float
         Largest violation to accept, over `height_scale`.
+    is_extrapolated : bool
+        See `TruncatedSet`.
 
     Returns
     -------
@@ -59,7 +63,7 @@ def improve(grid: GridLevel, problem: ContactProblem, rtol: float) -> SetOutcome
     # The truncated set costs least but may stall, as cut pressures can raise the energy. Then the
     # projected one, whose energy falls at every step, goes on from its pressures.
     if not grid.is_stiff:
-        state = TruncatedSet(grid, problem, rtol)
+        state = TruncatedSet(grid, problem, rtol, is_extrapolated)
         if not _iterate(state, history):
             state = ProjectedSet(grid, problem, rtol)
     is_done = state.done() or _iterate(state, history)

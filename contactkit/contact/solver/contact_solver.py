@@ -29,7 +29,7 @@ from .nested_grids import bytes_of, prepare
 from .problem import ContactProblem, Solution, coarser, fit, known_pressure, pose
 from .reference_solvers import Iterate, conjugate_gradient, quasi_newton
 from .transfer import prolong
-from .warm_start import Start, initial_pressure
+from .warm_start import FARTHEST_HELD, Start, initial_pressure
 
 __all__ = ["ContactSolver", "Response", "Solution"]
 
@@ -45,7 +45,7 @@ REFERENCE: dict[str, Callable[..., Iterate]] = {  # the fallback, or the method 
 COARSE_RTOL = 2e-2
 AT_BOUND = 1e-9  # fraction of the bound by which an extrapolation misses it in round-off
 MOST_STEPS = 400  # of the fallback: it has converged by then, or it is not worth its time
-MOST_AT_BOUND = 0.3  # fraction of the contact up to which an earlier solution is the better start
+MOST_AT_BOUND = 0.3  # fraction of the contact up to which pixels are free to take up a far load
 
 
 class Response(NamedTuple):
@@ -243,7 +243,7 @@ class ContactSolver:
             elif not started:
                 self._from_coarse_grids(problem)
             if method == "active-set":
-                outcome = improve(self.grids[0], problem, rtol)
+                outcome = improve(self.grids[0], problem, rtol, started)
                 fallback = not outcome.relative <= rtol
             else:
                 outcome, fallback = SetOutcome(0.0, np.inf, 0.0, 0, ()), False
@@ -321,19 +321,22 @@ class ContactSolver:
         if start is None:
             return False
         imposed = rigid_approach if mean_pressure is None else mean_pressure
-        first = initial_pressure(start, imposed or 0.0, mean_pressure is not None, self.shape)
-        if first is None:
+        is_load = mean_pressure is not None
+        initial = initial_pressure(start, imposed or 0.0, is_load, self.shape)
+        if initial is None:
             return False
-        p = first.ravel() / problem.pressure
+        is_far = initial.distance > FARTHEST_HELD
+        if is_far and self.grids[0].is_stiff and np.isfinite(initial.distance):
+            return False
+        p = initial.pressure.ravel() / problem.pressure
         at = np.flatnonzero(p)
         bound = np.broadcast_to(problem.upper, p.shape)[at]
         at_bound = p[at] > bound * (1.0 - AT_BOUND)
         p[at] = np.where(at_bound, bound, p[at])
         p = fit(p, problem)
         self.grids[0].pressure[...] = p.reshape(self.shape)
-        # With few free pixels left to take up the change of load, these overshoot.
         n_at_bound = max(np.count_nonzero(at_bound), np.count_nonzero(p[at] >= bound))
-        return bool(n_at_bound <= MOST_AT_BOUND * at.size)
+        return bool(n_at_bound <= MOST_AT_BOUND * at.size or not is_far)
 
     def _from_coarse_grids(self, problem: ContactProblem) -> None:
         """Nested iteration: solve roughly on ever finer grids, for a guess on the finest."""
@@ -408,6 +411,8 @@ class ContactSolver:
         # Not vdot: its threads of BLAS wait longer for each other than this takes.
         energy = 0.5 * float(np.einsum("ij,ij->", p, u))
         energy -= float(np.einsum("ij,ij->", p, problem.heights))
+        # In the memory of the dimensionless heights, whose last use this is.
+        displacement = np.multiply(u, problem.length, out=problem.heights)
         count = fine.applications()
         coarse = sum(g.applications() for g in self.grids[1:])
         coarse += sum(g.two_level.applications() for g in self.grids if g.two_level is not None)
@@ -417,7 +422,7 @@ class ContactSolver:
         carried = problem.load is None or abs(float(p.sum()) - problem.load) <= 1e-9 * problem.load
         return Solution(
             pressure=p * problem.pressure,
-            displacement=u * problem.length,
+            displacement=displacement,
             rigid_approach=outcome.approach * problem.length - problem.datum,
             converged=bool(outcome.relative <= rtol and carried),
             kkt=outcome.relative,

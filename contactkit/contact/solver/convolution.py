@@ -32,6 +32,7 @@ __all__ = [
     "SymbolMaker",
     "Transforms",
     "continue_influence",
+    "framed_places",
     "patch_symbol",
     "self_influence",
     "symbol_of",
@@ -168,6 +169,17 @@ def self_influence(symbol: Floats, width: int) -> float:
     return float(twice / (symbol.shape[0] * width))
 
 
+def framed_places(at: NDArray[np.intp], width: int) -> NDArray[np.intp]:
+    """Flat indices of pixels in a map with a frame one pixel wide.
+
+    Examples
+    --------
+    >>> framed_places(np.array([0, 1, 2]), 2)
+    array([5, 6, 9])
+    """
+    return np.asarray(at + 2 * (at // width) + (width + 3))
+
+
 def _lent(lender: Convolution | None, shape: tuple[int, ...], kind: Any) -> NDArray[Any]:
     size = int(np.prod(shape))
     if lender is None or lender._spectrum.nbytes < size * np.dtype(kind).itemsize:
@@ -184,7 +196,7 @@ class Convolution:
     shape : tuple of int
         Pixels ``(ny, nx)`` of the map.
     symbol : ndarray
-        Real symbol, of the map if periodic, of the doubled map otherwise.
+        Real symbol, of the map if periodic, of the doubled map otherwise; or `mirrored_half` of it.
     periodic : bool, "x" or "y"
         Whether the map repeats, or along which axis alone.
     transforms : Transforms
@@ -194,12 +206,14 @@ class Convolution:
     lender : Convolution, optional
         One of a map as large or larger, and no less precision, to share the memory of its spectrum.
     maps : tuple of ndarray, optional
-        Memory of `source` and `target`, zeros; its own if not given.
+        Memory of `source` and `target`, zeros; its own if not given. That of the source may have a
+        frame one pixel wide, ``(ny + 2, nx + 2)``, for stencils.
 
     Notes
     -----
-    `source` must hold the pressure; ``run()`` fills `target`. `count` is the number of runs, each
-    of them two transforms; `nbytes` its memory.
+    `source` must hold the pressure; ``run()`` fills `target`. `memory` is that of the source, flat
+    and with its frame, in which `places` are. `count` is the number of runs, each of them two
+    transforms; `nbytes` its memory.
 
     Examples
     --------
@@ -222,15 +236,18 @@ class Convolution:
         self.shape = shape
         self.count = 0
         source, target = maps or (np.zeros(shape, dtype), np.zeros(shape, dtype))
-        self.source: NDArray[Any] = source
+        self.memory: NDArray[Any] = source.ravel()
+        self._is_framed = source.shape != shape
+        self.source: NDArray[Any] = source[1:-1, 1:-1] if self._is_framed else source
         self.target: NDArray[Any] = target
         precise = np.dtype(dtype).itemsize
         kind = np.result_type(dtype, np.complex64)
-        room = spectrum_shape(symbol.shape, dtype, periodic, transforms.fast)
+        rows = shape[0] if periodic in (True, "y") else 2 * shape[0]
+        room = spectrum_shape((rows, symbol.shape[1]), dtype, periodic, transforms.fast)
         self._spectrum = _lent(lender, room, kind)
         lent = lender is not None and np.shares_memory(self._spectrum, lender._spectrum)
         self.nbytes = precise * symbol.size + (0 if lent else self._spectrum.nbytes)
-        self.nbytes += sum(one.nbytes for one in (self.source, self.target) if one.base is None)
+        self.nbytes += sum(one.nbytes for one in (source, target) if one.base is None)
         self._transform = make_transform(
             np.ascontiguousarray(symbol, dtype),
             shape,
@@ -238,6 +255,10 @@ class Convolution:
             *transforms,
             self._spectrum,
         )
+
+    def places(self, at: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Places of pixels in `memory`, by flat indices in the map."""
+        return framed_places(at, self.shape[1]) if self._is_framed else at
 
     def run(self) -> NDArray[Any]:
         """Convolve `source` into `target` and return it; the next run overwrites it."""
@@ -252,7 +273,7 @@ class Convolution:
 
 
 def patch_symbol(K: Floats, shape: Shape) -> Floats:
-    """Symbol of a patch, on the half spectrum ``(2 ny, nx + 1)`` of the doubled patch.
+    """Symbol of a patch, the mirrored half ``(ny + 1, nx + 1)`` of that of the doubled patch.
 
     Parameters
     ----------
@@ -270,8 +291,8 @@ def patch_symbol(K: Floats, shape: Shape) -> Floats:
     corner = np.zeros((ny + 1, nx + 1))  # distances that no two pixels have do not matter
     there = K[: ny + 1, : nx + 1]
     corner[: there.shape[0], : there.shape[1]] = there
-    half = scipy.fft.dctn(corner, type=1)
-    return np.concatenate([half, half[-2:0:-1]])
+    made: Floats = scipy.fft.dctn(corner, type=1)
+    return made
 
 
 class Patch:

@@ -34,10 +34,11 @@ FAST = {"reassoc", "contract", "arcp", "nsz", "nnan"}
 
 
 def scale_spectrum(spectrum: Array, symbol: Array) -> None:
-    """Multiply a spectrum by a real symbol, in place."""
+    """Multiply a spectrum by a real symbol, or the half of a mirrored one, in place."""
     for i in prange(spectrum.shape[0]):
+        row = i if i < symbol.shape[0] else spectrum.shape[0] - i
         for j in range(spectrum.shape[1]):
-            spectrum[i, j] *= symbol[i, j]
+            spectrum[i, j] *= symbol[row, j]
 
 
 def reduce_gap(u: Array, h: Array) -> float:

@@ -12,7 +12,7 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from ...numerics.fft import Edges, fast_transforms_installed
+from ...numerics.fft import Edges, fast_transforms_installed, mirrored_half
 from . import loops_numpy
 from .cell_inverse import CellInverse
 from .convolution import (
@@ -90,7 +90,8 @@ class GridLevel(NamedTuple):
 
     pressure, gap : maps in double precision
     exact : operator in double precision from `pressure` to `gap`; none on coarse grids
-    quick : operator in single precision; its source is zero between uses
+    quick : operator in single precision; its source is zero between uses, and has a frame that the
+        stencil uses as well
     patch : the same around the free pixels of an isolated contact; none if periodic
     response : displacement under unit pressure on the first pixel; to the middle if periodic
     change : displacement added since the last exact one, in single precision
@@ -127,7 +128,7 @@ class GridLevel(NamedTuple):
         """Reset the counters, and the maps that a coarse grid has in the memory of the finest."""
         self.quick.count = 0
         if self.exact is None:
-            self.quick.source[...] = 0.0
+            self.quick.memory[...] = 0.0
         if self.patch is not None:
             self.patch.count = 0
         if self.exact is not None:
@@ -199,7 +200,9 @@ class _Symbols:
         return symbol
 
 
-def _two_level(symbols: _Symbols, shape: Shape, symbol: Floats, fast: bool, loops: Any) -> TwoLevel:
+def _two_level(
+    symbols: _Symbols, shape: Shape, symbol: Floats, fast: bool, loops: Any, framed: Singles
+) -> TwoLevel:
     blocks = None
     if max(shape) >= LEAST_BLOCKED:
         pixels = 4.0 if _decay(symbol, symbols.periodic) > STEEP else 8.0
@@ -207,7 +210,7 @@ def _two_level(symbols: _Symbols, shape: Shape, symbol: Floats, fast: bool, loop
         own = symbols.own(symbol, shape)
         blocks = CoarseBlocks(shape, sides, symbols(sides), symbols.periodic, loops, fast, own)
     stencil = inverse_stencil(symbol, symbol_width(shape[1], symbols.periodic))
-    return TwoLevel(shape, symbols.periodic is True, stencil, blocks, loops)
+    return TwoLevel(shape, symbols.periodic is True, stencil, blocks, loops, framed)
 
 
 def _decay(symbol: Floats, periodic: Edges) -> float:
@@ -263,8 +266,10 @@ def _grid(
     symbol, periodic = symbols(shape), symbols.periodic is True
     threads = threads if min(shape) >= LEAST_THREADED else 1
     transforms = Transforms(threads, fast, loops.scale_spectrum)
-    lender = None if finest is None else finest.exact
-    exact = Convolution(shape, symbol, symbols.periodic, transforms, lender=lender)
+    half = mirrored_half(symbol)
+    exact = None
+    if finest is None:
+        exact = Convolution(shape, half, symbols.periodic, transforms)
     response = _response(symbol, shape, symbols.periodic)
     pixel = symbols.pixel(shape)
     decay = _decay(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
@@ -272,28 +277,34 @@ def _grid(
     reach, kind = (2, np.float64) if stiffening > STIFFEST else (1, np.float32)
     metric = CellInverse(response, shape, pixel, symbols.periodic, loops, reach, kind)
     is_stiff = stiffening > STIFF
+    lender: Convolution | None
+    single, with_frame = np.float32, (shape[0] + 2, shape[1] + 2)
+    if finest is None:
+        assert exact is not None
+        pressure, gap, room = exact.source, exact.target, _Room(exact.target)
+        lender = exact
+        framed, target = np.zeros(with_frame, single), np.zeros(shape, single)
+        change = np.zeros(shape[0] * shape[1], single)
+    else:
+        room, change = finest.room, finest.change[: shape[0] * shape[1]]
+        lender = finest.exact
+        pressure, gap = room.take(shape), room.take(shape)
+        framed, target = room.take(with_frame, single), room.take(shape, single)
+    quick = Convolution(shape, half, symbols.periodic, transforms, single, lender, (framed, target))
     two_level = None
     if decay <= PLATE and not is_stiff:
-        two_level = _two_level(symbols, shape, symbol, fast, loops)
-    spare = None if two_level is None else two_level.margin
-    pressure, gap, maps, change = exact.source, exact.target, None, None
-    if finest is not None:
-        room, change = finest.room, finest.change[: shape[0] * shape[1]]
-        pressure, gap = room.take(shape), room.take(shape)
-        maps = room.take(shape, np.float32), room.take(shape, np.float32)
-    edges, from_finest = symbols.periodic, lender or exact
-    quick = Convolution(shape, symbol, edges, transforms, np.float32, from_finest, maps)
+        two_level = _two_level(symbols, shape, symbol, fast, loops, framed)
     return GridLevel(
         pressure=pressure,
         gap=gap,
-        exact=exact if finest is None else None,
+        exact=exact,
         quick=quick,
-        patch=None if periodic else Patch(response, transforms, from_finest),
+        patch=None if periodic else Patch(response, transforms, lender),
         response=response,
-        change=np.zeros(shape[0] * shape[1], np.float32) if change is None else change,
+        change=change,
         inverse=metric
         if is_stiff or (isinstance(symbols.periodic, str) and stiffening > LAYERED)
-        else SparseInverse(response, shape, pixel, periodic, decay > STEEP, loops, spare),
+        else SparseInverse(response, shape, pixel, periodic, decay > STEEP, loops, framed),
         metric=metric,
         is_stiff=is_stiff,
         two_level=two_level,
@@ -302,7 +313,7 @@ def _grid(
         steepest=float(symbol.max()),
         uniform=float(symbol[0, 0]) if periodic else 0.0,
         loops=loops,
-        room=_Room(gap) if finest is None else finest.room,
+        room=room,
     )
 
 

@@ -165,9 +165,10 @@ class ProjectedSet(ActiveSetState):
         if inside.size < 2:
             return y
         quick, loops = self.grid.quick, self.grid.loops
-        loops.scatter(quick.source.ravel(), at, (y - p).astype(np.float32))
+        place = quick.places(at)
+        loops.scatter(quick.memory, place, (y - p).astype(np.float32))
         moved = quick.run().ravel()[inside].astype(np.float64)
-        quick.source.ravel()[at] = 0.0
+        quick.memory[place] = 0.0
         rest = r[free] - moved
         if self.load_fixed:
             rest -= rest.mean()

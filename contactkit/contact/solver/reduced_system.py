@@ -129,7 +129,7 @@ class ReducedSystem:
     ) -> None:
         self.grid, self.at, self.load_fixed, self.displaces = grid, at, load_fixed, displaces
         self.loops = grid.loops
-        self.operator, self.place = grid.quick, at
+        self.operator, self.inside = grid.quick, at
         self.patch: Patch | None = None
         self.is_direct = False
 
@@ -148,10 +148,10 @@ class ReducedSystem:
         """Change of the displacement under the solution, if no iterations gave it."""
         if not self.is_direct:
             return
-        quick = self.grid.quick
-        self.loops.scatter(quick.source.ravel(), self.at, x.astype(np.float32))
+        quick, place = self.grid.quick, self.grid.quick.places(self.at)
+        self.loops.scatter(quick.memory, place, x.astype(np.float32))
         self.grid.change[...] = quick.run().ravel()
-        quick.source.ravel()[self.at] = 0.0
+        quick.memory[place] = 0.0
 
     def _iterate(self, r: Singles, reduction: float, missing: float) -> Singles:
         grid = self.grid
@@ -159,7 +159,8 @@ class ReducedSystem:
         self.preconditioner.prepare(self.at, self.load_fixed)
         small = None if grid.patch is None else grid.patch.take(self.at)
         if grid.patch is not None and small is not None:
-            self.patch, self.operator, self.place = grid.patch, small, grid.patch.at
+            self.patch, self.operator, self.inside = grid.patch, small, grid.patch.at
+        self.place = self.operator.places(self.inside)
         x = np.zeros_like(r)
         grid.change[...] = 0.0
         if missing:  # spread evenly first: the iterations keep the sum
@@ -169,15 +170,15 @@ class ReducedSystem:
             self.take_step(1.0)
             r -= q - q.mean(dtype=np.float64)  # the approach is free: equations hold up to a mean
         conjugate_gradient(self, x, r, reduction, MAX_ITERATIONS)
-        self.operator.source.ravel()[self.place] = 0.0
+        self.operator.memory[self.place] = 0.0
         self.preconditioner.clean()
         return x
 
     def apply(self, d: Singles, q: Singles) -> None:
         """See `LinearSystem.apply`."""
-        self.loops.scatter(self.operator.source.ravel(), self.place, d)
+        self.loops.scatter(self.operator.memory, self.place, d)
         self.operator.run()
-        self.loops.gather(self.operator.target.ravel(), self.place, q)
+        self.loops.gather(self.operator.target.ravel(), self.inside, q)
         if self.patch is not None:
             self.patch.count += 1
 

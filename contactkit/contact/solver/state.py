@@ -48,7 +48,8 @@ class ActiveSetState:
         self.missing = self.load - float(self.p.sum()) if self.load_fixed else 0.0
         self.stopped, self.added, self.scale, self.largest = 0, 0, 1.0, 0.0
         self.approach, self.certificate, self.exact = 0.0, 0.0, False
-        self.rms = float(np.std(self.h))
+        # Of heights of zero mean; `std` and its like take another map.
+        self.rms = float(np.sqrt(np.einsum("i,i->", self.h, self.h) / self.h.size))
         self.relative, self.precise = np.inf, False
 
     def evaluate(self) -> float:

@@ -33,6 +33,10 @@ REDUCTIONS = (
     (0.01, 0.1),
     (3e-4, 0.03),
 )
+# The same presumed of an extrapolated start, whose first correction shows which pixels leave.
+# Curves of twelve loads in steps of 1 % take 0.55 to 0.63 of single solves, without this 0.62 to
+# 0.76; a reduction to 0.03 in place of 0.1 takes 2 % more.
+EXTRAPOLATED = 0.02
 # Of the last reduction: the violation is a maximum, the linear residual a norm. 0.1 takes 1 % more
 # applications, 1 takes 1 % fewer.
 SAFETY = 0.3
@@ -40,10 +44,22 @@ PATIENCE = 15  # iterations within which the residual must have halved: a guard,
 
 
 class TruncatedSet(ActiveSetState):
-    """Iterations of the truncated active set; parameters as of `ActiveSetState`."""
+    """Iterations of the truncated active set.
 
-    def __init__(self, grid: GridLevel, problem: ContactProblem, rtol: float) -> None:
+    Parameters
+    ----------
+    grid, problem, rtol
+        As of `ActiveSetState`.
+    is_extrapolated : bool
+        Whether the pressures are extrapolated from other loads: nearly right, but which pixels
+        leave the contact is seen with the first correction only.
+    """
+
+    def __init__(
+        self, grid: GridLevel, problem: ContactProblem, rtol: float, is_extrapolated: bool = False
+    ) -> None:
         super().__init__(grid, problem, rtol)
+        self.presumed = EXTRAPOLATED if is_extrapolated else 0.0
         self.stuck, self.cautious = False, False
         self.at = np.zeros(0, np.intp)
         self.best, self.best_step = np.inf, 0
@@ -82,7 +98,8 @@ class TruncatedSet(ActiveSetState):
         if self.stuck:
             return 0.03
         enough = SAFETY * self.rtol / max(self.relative, 1e-5 * self.rtol)
-        changed = (self.stopped + self.added) / self.at.size
+        changed = max((self.stopped + self.added) / self.at.size, self.presumed)
+        self.presumed = 0.0
         for fraction, reduction in REDUCTIONS:
             if changed > fraction:
                 return max(reduction, min(enough, 0.5))

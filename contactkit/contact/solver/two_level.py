@@ -27,7 +27,13 @@ from numpy.typing import NDArray
 
 from ...numerics.fft import Edges
 from .conjugate_gradient import conjugate_gradient
-from .convolution import Convolution, Transforms, self_influence, symbol_width
+from .convolution import (
+    Convolution,
+    Transforms,
+    framed_places,
+    self_influence,
+    symbol_width,
+)
 from .loops_numpy import dot
 
 __all__ = ["CoarseBlocks", "Stencil", "TwoLevel", "inverse_stencil", "least_eigenvalue"]
@@ -214,6 +220,8 @@ class TwoLevel:
         For the long waves; small maps do without.
     loops : namespace
         Loops over the pixels.
+    framed : ndarray (ny + 2, nx + 2), optional
+        Zeros in single precision, to borrow; left as zeros.
 
     Examples
     --------
@@ -232,16 +240,16 @@ class TwoLevel:
         stencil: Stencil,
         blocks: CoarseBlocks | None,
         loops: Any,
+        framed: Singles | None = None,
     ) -> None:
         self.periodic, self.stencil, self.blocks, self.loops = periodic, stencil, blocks, loops
-        self.width = shape[1]
-        self.margin = np.zeros((shape[0] + 2, shape[1] + 2), np.float32)  # zeros between solves
+        self.width, size = shape[1], (shape[0] + 2, shape[1] + 2)
+        self.framed = np.zeros(size, np.float32) if framed is None else framed
 
     @property
     def nbytes(self) -> int:
-        """Memory held between the solves."""
-        blocks = 0 if self.blocks is None else self.blocks.operator.nbytes
-        return int(self.margin.nbytes + blocks)
+        """Memory held between the solves, without that of `framed`."""
+        return 0 if self.blocks is None else self.blocks.operator.nbytes
 
     def applications(self) -> int:
         """Applications of the operator between the blocks since its counter was reset."""
@@ -249,7 +257,7 @@ class TwoLevel:
 
     def prepare(self, at: NDArray[np.intp], load_fixed: bool) -> None:
         """Take a set of pixels, by flat indices, and whether the sum of pressures is prescribed."""
-        self.at = at + 2 * (at // self.width) + (self.width + 3)
+        self.at = framed_places(at, self.width)
         if self.blocks is not None:
             self.rest = np.empty(at.size, np.float32)
             self.block = self.blocks.block_of(at)
@@ -272,18 +280,18 @@ class TwoLevel:
         return z
 
     def _short_waves(self, r: Singles) -> Singles:
-        margin, loops = self.margin, self.loops
-        flat, z = margin.ravel(), np.empty_like(r)
+        framed, loops = self.framed, self.loops
+        flat, z = framed.ravel(), np.empty_like(r)
         loops.scatter(flat, self.at, r)
         if self.periodic:
-            margin[0], margin[-1] = margin[-2], margin[1]
-            margin[:, 0], margin[:, -1] = margin[:, -2], margin[:, 1]
-        loops.apply_stencil(flat, self.at, margin.shape[1], tuple(self.stencil), z)
+            framed[0], framed[-1] = framed[-2], framed[1]
+            framed[:, 0], framed[:, -1] = framed[:, -2], framed[:, 1]
+        loops.apply_stencil(flat, self.at, framed.shape[1], tuple(self.stencil), z)
         return z
 
     def clean(self) -> None:
         """Leave zeros behind."""
-        self.margin.ravel()[self.at] = 0.0
+        self.framed.ravel()[self.at] = 0.0
         if self.periodic:
-            self.margin[[0, -1]] = 0.0
-            self.margin[:, [0, -1]] = 0.0
+            self.framed[[0, -1]] = 0.0
+            self.framed[:, [0, -1]] = 0.0

@@ -3,6 +3,7 @@
 page           Parts shared by all pages: data in JSON, tables in Markdown, pictures, the machine.
 hard_cases     Page of the hard cases.
 effect_scenes  A scene for each effect, with it and without it, and the formula of the effect.
+large_data     Data of large maps, from what their benchmark left.
 accuracy       Page of accuracy and cost: what a digit more costs, all studies, other programs.
 effects        Page of the effects: role, formula, source, validity, cost, scenes.
 """

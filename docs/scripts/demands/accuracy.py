@@ -201,6 +201,7 @@ def page(data: Mapping[str, Any]) -> str:
         parts.append("\n".join(notes))
     parts += [
         *_peers(peers),
+        *_large(load("large-maps")),
         "## Functions without a tolerance",
         "\n".join(f"- {names}: {what}" for what, names in _untoleranced().items()),
         "## Measured",
@@ -291,6 +292,52 @@ def _peers(found: Mapping[str, Any]) -> list[str]:
         ),
         *found["left_out"],
     ]
+
+
+def _large(found: Mapping[str, Any]) -> list[str]:
+    """The section on large maps."""
+    rows = []
+    for row in found["small"]:
+        cells = [_beside(row.get(name)) for name in ("fast", "plain", "aspher")]
+        over = "-"
+        if "aspher" in row and "fast" in row:
+            over = f"{row['aspher']['seconds'] / row['fast']['seconds']:.1f}"
+        rows.append((f"{row['n']}, {row['boundary']}", *cells, over))
+    whole: dict[tuple[int, str], dict[int, Mapping[str, Any]]] = {}
+    for row in found["large"]:
+        whole.setdefault((row["n"], row["boundary"]), {})[row["threads"]] = row
+    return [
+        "## Large maps",
+        "A rough contact of 5 %, to 1e-8 of the rms roughness, in one run "
+        f"({found['conditions']}). A *map* is 8 bytes for each pixel. CPU seconds on one thread "
+        "with set-up, and in brackets the memory of the solver in maps:",
+        table(("pixels a side", "contactkit", "without the extra", "aspher", "times"), rows),
+        "A whole run on a file: it is read, planned and solved, and the result is kept, on one "
+        "thread and on two. Memory is the largest resident size of the process over that of its "
+        "imports. aspher states that it solves 16384 x 16384 isolated pixels; here "
+        "[8192 x 8192 is the limit as delivered](../compared.md).",
+        table(
+            ("pixels a side", "wall time [s]", "two threads [s]", "gain", "memory", "in maps"),
+            (_whole(*one) for one in whole.items()),
+        ),
+    ]
+
+
+def _beside(one: Mapping[str, Any] | None) -> str:
+    return "-" if one is None else f"{_seconds(one['seconds'])} ({one['maps']:.1f})"
+
+
+def _whole(case: tuple[int, str], by: Mapping[int, Mapping[str, Any]]) -> tuple[str, ...]:
+    """Seconds on one and on two threads, their ratio, and the most memory of both."""
+    done = {threads: row for threads, row in by.items() if "failed" not in row}
+    wall = {threads: row["wall"] for threads, row in done.items()}
+    gain = f"{wall[1] / wall[2]:.2f}" if {1, 2} <= set(wall) else "-"
+    most = max(done.values(), key=lambda row: row["bytes"], default=None)
+    memory = (
+        ("-", "-") if most is None else (f"{most['bytes'] / 1e9:.2g} GB", f"{most['maps']:.1f}")
+    )
+    seconds = (_seconds(wall.get(threads)) for threads in (1, 2))
+    return (f"{case[0]}, {case[1]}", *seconds, gain, *memory)
 
 
 def fastest(peers: Mapping[str, Mapping[str, Any]]) -> str:
