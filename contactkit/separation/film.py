@@ -9,14 +9,16 @@ from typing import NamedTuple
 
 from attrs import field, frozen
 
+from ..numerics.roots import bracketed_root
 from ..scene.column import Column
 from .cavity.law import Cavitation
 from .effects.base import Limiter, LimitKind, SeparationForce
 from .effects.force_law import ForceLaw, LawAt, law_impulse
 from .integrator.radau import Forces
 
-__all__ = ["Film", "ForcesAt"]
+__all__ = ["Film", "ForcesAt", "balance_speed"]
 
+_SPEEDS = (math.log(1e-40), math.log(1e12))  # [m/s], between which a pull is balanced
 _DIFFERENCE = 1e-7  # relative, of gap and speed, for the slopes of a force that a limit bounds
 
 
@@ -334,10 +336,31 @@ class Film:
         """Whether a force is proportional to speed, so that two gaps give its impulse."""
         return any(law.rate == "proportional" for law in self.laws.values())
 
+    @property
+    def sets_speed(self) -> bool:
+        """Whether a force grows with the speed, so that a mass is not needed to find it."""
+        pairs = self.laws.items()
+        return any(law.rate == "proportional" or kind.newtonian for kind, law in pairs)
+
     def viscous_impulse(self, start: float, end: float) -> float:
         """Impulse [N.s] between two gaps [m] of forces proportional to speed, without limits."""
         laws = (law for law in self._moving if law.rate == "proportional")
         return sum(law_impulse(law, start, end) for law in laws)
+
+    def impulse_at(self, start: float, end: float, speed: float) -> float:
+        """Impulse [N.s] between two gaps [m] at a speed [m/s], without limits."""
+        return law_impulse(ForceLaw(lambda gap, _: self.damping(gap, speed)), start, end)
+
+    def opening_time(self, start: float, end: float, pull: float) -> float:
+        """Time [s] in which a pull [N] opens the gap [m] against what grows with the speed alone.
+
+        Without limits and static forces, by the rule of six nodes in panels of the gap.
+        """
+
+        def slowness(gap: float, _: float) -> float:
+            return 1.0 / balance_speed(lambda speed: self.damping(gap, speed) * speed, pull)
+
+        return law_impulse(ForceLaw(slowness), start, end)
 
     def newtonian_impulse(self, start: float, end: float) -> float:
         """Impulse [N.s] of a flowing liquid without limits between two gaps [m]; 0 without one."""
@@ -349,6 +372,21 @@ class Film:
 
     def _liquid(self) -> list[ForceLaw]:
         return [law for kind, law in self.laws.items() if kind.newtonian is not None]
+
+
+def balance_speed(force: Callable[[float], float], pull: float) -> float:
+    """Speed [m/s] at which a force that grows with it is a pull [N], both positive.
+
+    Examples
+    --------
+    >>> round(balance_speed(lambda speed: 4.0 * speed**0.5, 2.0), 12)
+    0.25
+    """
+
+    def excess(log_speed: float) -> float:
+        return math.log(max(force(math.exp(log_speed)), 1e-300) / pull)
+
+    return math.exp(bracketed_root(excess, *_SPEEDS))
 
 
 def _sum(one: LawAt, other: LawAt) -> LawAt:

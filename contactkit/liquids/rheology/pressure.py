@@ -56,6 +56,10 @@ class PressureViscosity(Described, ABC):
     family: ClassVar[str] = "rheology law"
     kind: ClassVar[str]
     """Name of the law in files."""
+    cite: ClassVar[str]
+    """Source of its equation."""
+    highest_pressure: ClassVar[float]
+    """Pressure [Pa] up to which the law is known to fit."""
 
     pressure_coefficient: float = field(validator=_coefficient, metadata=si("1/Pa"))
     source: str = ""
@@ -94,6 +98,8 @@ class BarusViscosity(PressureViscosity):
     """
 
     kind: ClassVar[str] = "barus"
+    cite: ClassVar[str] = "viscosity over pressure: Barus 1893"
+    highest_pressure: ClassVar[float] = 1e8
 
     def pressure_law(self, viscosity: float) -> PressureLaw:
         """See `PressureViscosity.pressure_law`."""
@@ -136,6 +142,8 @@ class RoelandsViscosity(PressureViscosity):
     """
 
     kind: ClassVar[str] = "roelands"
+    cite: ClassVar[str] = "viscosity over pressure: Roelands 1966"
+    highest_pressure: ClassVar[float] = 1e9
 
     def pressure_law(self, viscosity: float) -> PressureLaw:
         """See `PressureViscosity.pressure_law`.

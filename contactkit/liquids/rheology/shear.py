@@ -55,6 +55,12 @@ class ShearViscosity(Described, ABC):
     family: ClassVar[str] = "rheology law"
     kind: ClassVar[str]
     """Name of the law in files."""
+    cite: ClassVar[str]
+    """Source of its equation."""
+
+    @abstractmethod
+    def memory(self, viscosity: float) -> float:
+        """Time [s] after which a liquid of a viscosity [Pa.s] at rest has forgotten its shear."""
 
     @abstractmethod
     def flow_law(self, viscosity: float) -> FlowLaw:
@@ -93,10 +99,15 @@ class PowerLawViscosity(ShearViscosity):
     """
 
     kind: ClassVar[str] = "power-law"
+    cite: ClassVar[str] = "power law: Ostwald 1925, de Waele 1923"
 
     exponent: float = field(validator=_exponent, metadata=si("-"))
     critical_rate: float = field(validator=positive, metadata=si("1/s"))
     source: str = ""
+
+    def memory(self, viscosity: float) -> float:
+        """See `ShearViscosity.memory`."""
+        return 1.0 / self.critical_rate
 
     def flow_law(self, viscosity: float) -> FlowLaw:
         """See `ShearViscosity.flow_law`."""
@@ -147,6 +158,7 @@ class CarreauViscosity(ShearViscosity):
     """
 
     kind: ClassVar[str] = "carreau"
+    cite: ClassVar[str] = "shear thinning: Carreau 1972, Yasuda 1979"
 
     relaxation_time: float = field(validator=positive, metadata=si("s"))
     exponent: float = field(validator=_thinning, metadata=si("-"))
@@ -160,16 +172,20 @@ class CarreauViscosity(ShearViscosity):
             hint = "it is a fraction of the viscosity at rest"
             raise refuse(self, attribute, value, "be below 1", hint)
 
+    def memory(self, viscosity: float) -> float:
+        """See `ShearViscosity.memory`."""
+        return self.relaxation_time
+
     def flow_law(self, viscosity: float) -> FlowLaw:
         """See `ShearViscosity.flow_law`."""
         from ...lubrication.flow_laws.carreau import Carreau
 
         return Carreau(
             viscosity=viscosity,
-            second_viscosity=self.second_plateau * viscosity,
             relaxation_time=self.relaxation_time,
             exponent=self.exponent,
-            sharpness=self.sharpness,
+            limit_viscosity=self.second_plateau * viscosity,
+            transition=self.sharpness,
         )
 
 
@@ -206,9 +222,14 @@ class EyringViscosity(ShearViscosity):
     """
 
     kind: ClassVar[str] = "eyring"
+    cite: ClassVar[str] = "shear stress as a process of rates: Eyring 1936"
 
     stress: float = field(validator=_stress, metadata=si("Pa"))
     source: str = ""
+
+    def memory(self, viscosity: float) -> float:
+        """See `ShearViscosity.memory`."""
+        return viscosity / self.stress
 
     def flow_law(self, viscosity: float) -> FlowLaw:
         """See `ShearViscosity.flow_law`."""

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ...liquids.liquid import LiquidState
     from ...scene.scenes import SeparationScene, SlidingScene
     from ..face.film import FaceFilm
+    from ..rheology.choice import FilmRheology
 
 __all__ = [
     "Angles",
@@ -58,6 +59,8 @@ class PreparedScene(Generic[S_co]):
     liquid: LiquidState
     film: FilmShape
     liquid_pressure: float | None
+    computed_rheology: tuple[str, ...] | None = None
+    """Parts of the rheology of the liquid that are computed, where a larger film decided that."""
 
     @property
     def angles(self) -> Angles:
@@ -83,6 +86,18 @@ class PreparedScene(Generic[S_co]):
         gaps = loading.smallest_gap, loading.final_gap
         return face_film(shape_of(self.scene.interface), gaps, self.accuracy.film_rtol)
 
+    @cached_property
+    def rheology(self) -> FilmRheology | None:
+        """Rheology of the film; None for a Newtonian liquid that does not slip."""
+        meniscus = self.scene.meniscus
+        if isinstance(self.scene.loading, Sliding) or (
+            meniscus.liquid.is_newtonian and not meniscus.slips
+        ):
+            return None
+        from ..rheology.choice import film_rheology
+
+        return film_rheology(self)
+
     @property
     def wetting(self) -> float:
         """Sum of the cosines of both contact angles [-]."""
@@ -99,7 +114,9 @@ def with_fraction(
         return prepared
     less = evolve(meniscus, volume=fraction * meniscus.volume)
     scene = evolve(scene, interface=evolve(scene.interface, meniscus=less))
-    return prepare_scene(scene, prepared.accuracy, prepared.liquid)
+    made = prepare_scene(scene, prepared.accuracy, prepared.liquid)
+    rheology = prepared.rheology
+    return made if rheology is None else evolve(made, computed_rheology=rheology.computed)
 
 
 S = TypeVar("S", bound="SeparationScene | SlidingScene")

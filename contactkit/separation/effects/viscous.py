@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from attrs import field, frozen
 
-from ...errors import DescriptionError, NotSimulatedError
+from ...errors import DescriptionError, NotSimulatedError, PlanError
 from ...lubrication import dimensionless as numbers
 from ...lubrication import film_limits
 from ...lubrication import squeeze_film as squeeze
@@ -23,7 +23,7 @@ from ..face.shape import closed_form, on_face, shape_of
 from .base import CAVITY, FilmLimit, ForcePart, Limiter, LimitKind, SeparationForce
 from .constant_force import constant_force_time
 from .film_shape import FilmShape, film_shape, needs_extent
-from .film_validity import film_numbers
+from .film_validity import apparent_viscosity, film_numbers
 from .force_law import ForceLaw, law_impulse
 from .meniscus import MeniscusForce
 from .published_film import published_film
@@ -71,9 +71,16 @@ class ViscousPart(ForcePart):
         Raises
         ------
         NotSimulatedError
-            If the film loses liquid under limits: the way decides, and was not taken without them.
+            If the film loses liquid under limits, or its viscosity depends on shear or pressure:
+            the way decides, and was not taken without them.
         """
         found = self.result.impulses.get("newtonian_impulse")
+        rheology = self.result.plan.prepared.rheology
+        if found is None and rheology is not None and not rheology.is_linear:
+            raise NotSimulatedError(
+                "no impulse without limits of a film whose viscosity depends on shear or pressure: "
+                "it depends on the motion; simulate it without the limits"
+            )
         if found is None:
             raise NotSimulatedError(
                 "no impulse without limits of a film that loses liquid: it depends on the motion; "
@@ -131,7 +138,7 @@ class ViscousPart(ForcePart):
 
 @frozen(kw_only=True)
 class ViscousForce(SeparationForce):
-    """Resistance of a Newtonian film to being drawn out, by Reynolds' equation.
+    """Resistance of a film to being drawn out, by Reynolds' equation.
 
     Parameters
     ----------
@@ -144,6 +151,11 @@ class ViscousForce(SeparationForce):
         those of the arc of the source, which ``MeniscusForce(profile="as-published")`` has as
         well, and not those of an upright rim: of ``Meniscus.from_radius(profile="arc")`` the
         radius that is given. That is up to 5 % of the force at a radius of 50 gaps.
+    rheology : {"all", "newtonian"}, optional
+        What is computed of a liquid whose viscosity depends on pressure or shear: all of it, or
+        nothing. None: the parts that change the force by 1 % or more on the motion that the loading
+        lets expect. The plan says what each part does, and a result how much is left out. Slip at
+        the walls is always computed.
 
     Notes
     -----
@@ -176,6 +188,9 @@ class ViscousForce(SeparationForce):
         default="volume-conserving",
         validator=choice("volume-conserving", "flooded", "as-published"),
     )
+    rheology: Literal["all", "newtonian"] | None = field(
+        default=None, validator=optional(choice("all", "newtonian"))
+    )
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -196,7 +211,16 @@ class ViscousForce(SeparationForce):
             by = "finite volumes" if known is None else known.law.source
             rough = "flow factors of a rough gap: homogenisation; Patir and Cheng 1978"
             return (f"Reynolds 1886: {by}", *((rough,) if shape.roughness is not None else ()))
-        return (flats,) if scene.interface.is_flat else (sphere,)
+        return (flats if scene.interface.is_flat else sphere, *self._cites_of_liquid(scene))
+
+    def _cites_of_liquid(self, scene: SeparationScene) -> tuple[str, ...]:
+        """Sources of the rheology that the liquid of a scene gives, and of its slip."""
+        liquid = scene.meniscus.liquid
+        laws = (liquid.pressure_viscosity, liquid.shear_viscosity)
+        given = () if self.rheology == "newtonian" else tuple(law for law in laws if law)
+        slip = ("slip of a squeezed film: Vinogradova 1995",) if scene.meniscus.slips else ()
+        flow = ("flux of any flow law: Rabinowitsch 1929",) if given or slip else ()
+        return (*(law.cite for law in given), *flow, *slip)
 
     @property
     def takes_solids(self) -> bool:
@@ -213,7 +237,7 @@ class ViscousForce(SeparationForce):
         return ("viscosity", "surface_tension") if at_pressure else ("viscosity",)
 
     def proportional_to(self, scene: SeparationScene) -> str:
-        """See `SeparationForce.proportional_to`."""
+        """See `SeparationForce.proportional_to`; a native FMU refuses a computed rheology."""
         return "viscosity"
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
@@ -226,6 +250,8 @@ class ViscousForce(SeparationForce):
                 f"interface.meniscus.volume [m3] with closure={self.closure!r}: at a fixed "
                 f'pressure the rim keeps its height (or closure="volume-conserving")',
             )
+        if scene.meniscus.slips and self.takes_printed():
+            missing += ("no slip of the liquid for the equations as published",)
         return missing + needs_extent(scene)
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
@@ -301,7 +327,9 @@ def _face_law(film: FaceFilm, viscosity: float) -> ForceLaw:
 
 
 def _law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:
-    face = prepared.face_film
+    rheology, face = prepared.rheology, prepared.face_film
+    if rheology is not None and rheology.film is not None:
+        return rheology.film.force_law()
     if face is not None:
         return _face_law(face, prepared.liquid.viscosity)
     return _law_of(viscous_film(prepared), prepared.liquid.viscosity)
@@ -531,6 +559,13 @@ class TensionLimit(FilmLimit):
         """See `FilmLimit.cavity_law`."""
         if not self.follows_cavity:
             return None
+        if prepared.rheology is not None and prepared.rheology.film is not None:
+            other = ' or "reynolds"' if prepared.scene.interface.is_flat else ""
+            raise PlanError(
+                'TensionLimit(cavity="mass-conserving") follows the cavity of a Newtonian film that '
+                f'does not slip; take cavity="truncated"{other}, or leave the rheology out with '
+                'ViscousForce(rheology="newtonian")'
+            )
         if prepared.face_film is not None:
             return self._face_cavity(prepared, prepared.face_film)
         film = viscous_film(prepared)
@@ -546,6 +581,8 @@ class TensionLimit(FilmLimit):
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """See `FilmLimit.prepare`."""
+        if prepared.rheology is not None and prepared.rheology.film is not None:
+            return prepared.rheology.film.tension_limiter()
         film, drop = viscous_film(prepared), self.tension
         n, radius, height = film.menisci, film.radius, film.height
         disc = (
@@ -607,7 +644,19 @@ class ShearLimit(FilmLimit):
         return ()
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
-        """See `FilmLimit.prepare`."""
+        """See `FilmLimit.prepare`.
+
+        Raises
+        ------
+        PlanError
+            If the film has a rheology of its own, or slips.
+        """
+        if prepared.rheology is not None and prepared.rheology.film is not None:
+            raise PlanError(
+                "ShearLimit bounds the stress of a Newtonian film that does not slip; leave it out "
+                "and give liquid.shear_viscosity = EyringViscosity(stress=...), or leave the "
+                'rheology out with ViscousForce(rheology="newtonian")'
+            )
         film, strength = viscous_film(prepared), self.strength
         n, radius, height = film.menisci, film.radius, film.height
 
@@ -674,15 +723,15 @@ def _erratum(plan: PlanView) -> PublishedValue:
 def _validity(
     prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
 ) -> tuple[ValidityNumber, ...]:
-    film, viscosity = prepared.film, prepared.liquid.viscosity
-    density = prepared.liquid.given("density")
+    film, density = prepared.film, prepared.liquid.given("density")
+    viscosity = apparent_viscosity(prepared)
     has_end = math.isfinite(film.height(path[0][0]))
     reynolds = slenderness = None
     if has_end:
         slenderness = min(numbers.slenderness(film.radius(h), film.height(h)) for h, _ in path)
     if has_end and density is not None:
         reynolds = max(
-            numbers.reynolds_number(density, v, film.height(h), viscosity) for h, v in path
+            numbers.reynolds_number(density, v, film.height(h), viscosity(h, v)) for h, v in path
         )
     inertia = _size(film, reynolds, numbers.inertia_fraction)
     rim = _size(film, slenderness, numbers.rim_fraction)
@@ -705,7 +754,20 @@ def _validity(
         ),
         *film_numbers(prepared, viscous_film(prepared), path, _strength(prepared.scene)),
         *_grid_error(prepared),
+        *_rheology_numbers(prepared, path),
     )
+
+
+def _rheology_numbers(
+    prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
+) -> tuple[ValidityNumber, ...]:
+    """Ranges of the rheology of the liquid, and how far the film heats itself."""
+    liquid = prepared.scene.meniscus.liquid
+    if prepared.rheology is None and liquid.heat_capacity is None:
+        return ()
+    from ..rheology.validity import rheology_numbers
+
+    return rheology_numbers(prepared, path)
 
 
 def _grid_error(prepared: PreparedScene[SeparationScene]) -> tuple[ValidityNumber, ...]:

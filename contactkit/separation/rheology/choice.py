@@ -1,0 +1,201 @@
+"""What a film computes of the rheology of its liquid, and how much it leaves out.
+
+Each part of a liquid, its viscosity over pressure and that over shear, is tried alone on the
+motion that the loading lets expect. One that changes the force by less than `WORTH` anywhere is
+left out, and how much it changes is stated. Slip is given with the bodies and always computed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from attrs import field, frozen
+
+from ...errors import PlanError
+from ...scene.loading import ImposedForce, ImposedSpeed, ImposedTime
+from .film import RheologicalFilm
+
+if TYPE_CHECKING:
+    from ...scene.scenes import SeparationScene
+    from ..effects.prepared import PreparedScene
+    from ..effects.viscous import ViscousForce
+
+__all__ = ["PARTS", "WORTH", "FilmRheology", "Part", "film_rheology", "force_change"]
+
+WORTH = 0.01
+"""Change of the force that a part is computed for [-]. The neighbours of Reynolds' equation are of
+that size: a film 170 times as wide as high loses 1 % at its rim, and 4 K change an oil by 20 %."""
+
+_GAPS = 17  # of the expected motion: a change of the force is known to a tenth of itself
+_TINY = 1e-300
+
+
+class Part(NamedTuple):
+    """A part of the rheology: the field of `Liquid` that has it, and what it is in words."""
+
+    name: str
+    words: str
+
+
+PARTS = (
+    Part("pressure_viscosity", "viscosity over pressure"),
+    Part("shear_viscosity", "viscosity over shear"),
+)
+
+
+@frozen(eq=False)
+class FilmRheology:
+    """Rheology of the film of a scene: what its force computes, and what it leaves out.
+
+    Parameters
+    ----------
+    computed : tuple of str
+        Parts of the liquid that the force computes.
+    left_out : tuple of str
+        Parts that it does not.
+    changes : mapping
+        What each part changes the force by, alone, on the expected motion [-].
+    film : RheologicalFilm, optional
+        The film with what is computed. None: it is Newtonian and does not slip.
+    """
+
+    computed: tuple[str, ...]
+    left_out: tuple[str, ...]
+    changes: Mapping[str, float] = field(factory=dict)
+    film: RheologicalFilm | None = None
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether the force is proportional to the speed."""
+        return not self.computed
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is computed and left out, in sentences."""
+        words = dict(PARTS)
+        found = []
+        for name in (*self.computed, *self.left_out):
+            what = "computed" if name in self.computed else "left out"
+            size = ""
+            if name in self.changes:
+                size = f": alone it changes the force by {_per_cent(self.changes[name])} at most"
+            found.append(f"{words[name]} is {what}{size}")
+        return tuple(found)
+
+
+def _per_cent(change: float) -> str:
+    return f"{100.0 * change:.2g} %"
+
+
+def film_rheology(prepared: PreparedScene[SeparationScene]) -> FilmRheology | None:
+    """Rheology of the film of a scene; None for a Newtonian liquid that does not slip.
+
+    Raises
+    ------
+    PlanError
+        If the film is one that no flow law is known for: on a face that is no disc, or that of
+        printed equations.
+    """
+    from ..effects.viscous import ViscousForce
+
+    scene = prepared.scene
+    viscous, liquid = scene.effect(ViscousForce), scene.meniscus.liquid
+    given = tuple(part.name for part in PARTS if getattr(liquid, part.name) is not None)
+    if viscous is None or not (given or scene.meniscus.slips):
+        return None
+    changes = {} if viscous.rheology == "all" else _changes(prepared, given)
+    computed = prepared.computed_rheology
+    if computed is None:
+        computed = _computed(viscous, given, changes)
+    left = tuple(name for name in given if name not in computed)
+    if not computed and not scene.meniscus.slips:
+        return FilmRheology((), left, changes)
+    _check_film(prepared, computed, changes)
+    return FilmRheology(computed, left, changes, RheologicalFilm.of(prepared, computed))
+
+
+def _computed(
+    viscous: ViscousForce, given: tuple[str, ...], changes: Mapping[str, float]
+) -> tuple[str, ...]:
+    if viscous.rheology == "newtonian" or viscous.takes_printed():
+        return ()
+    return tuple(name for name in given if not changes.get(name, math.inf) < WORTH)
+
+
+def _check_film(
+    prepared: PreparedScene[SeparationScene], computed: tuple[str, ...], changes: Mapping[str, float]
+) -> None:
+    """Refuse films whose flow is not known for such a liquid."""
+    scene, words = prepared.scene, dict(PARTS)
+    what = " and ".join([words[name] for name in computed] or ["slip at the walls"])
+    sizes = ", ".join(f"{_per_cent(changes[name])}" for name in computed if name in changes)
+    size = f" (it changes the force by {sizes})" if sizes else ""
+    cure = (
+        'ViscousForce(rheology="newtonian") leaves it out'
+        if computed
+        else "leave the slip lengths of the meniscus out"
+    )
+    from ..face.shape import on_face
+
+    if on_face(scene):
+        raise PlanError(
+            f"ViscousForce knows {what}{size} between discs and under a sphere, not in a film on "
+            f"a face that is no disc or with a cavity that is followed under a sphere; {cure}"
+        )
+
+
+def _changes(
+    prepared: PreparedScene[SeparationScene], given: tuple[str, ...]
+) -> Mapping[str, float]:
+    """What each part alone changes the force by on the expected motion [-]; empty if not known."""
+    path = _expected(prepared)
+    if path is None:
+        return {}
+    return {name: force_change(prepared, name, path) for name in given}
+
+
+def force_change(
+    prepared: PreparedScene[SeparationScene], name: str, path: Sequence[tuple[float, float]]
+) -> float:
+    """Largest relative change of the force by one part alone, along gaps [m] and speeds [m/s].
+
+    Where the liquid of a scene cavitates, that of the force of the cavitated film.
+    """
+    plain, changed = (RheologicalFilm.of(prepared, parts) for parts in ((), (name,)))
+    worst = 0.0
+    for gap, speed in path:
+        if speed == 0.0:
+            continue
+        one, other = (film.bounded_force(gap, speed) for film in (plain, changed))
+        if one != 0.0:
+            worst = max(worst, abs(other / one - 1.0))
+    return worst
+
+
+def _expected(prepared: PreparedScene[SeparationScene]) -> list[tuple[float, float]] | None:
+    """Gaps [m] and speeds [m/s] that the loading lets expect; None if it says none.
+
+    Under a force those at which a Newtonian film alone balances it, and the initial speed where
+    that is higher: inertia and a meniscus only slow an opening.
+    """
+    loading = prepared.scene.loading
+    low = loading.smallest_gap or 1e-3 * loading.final_gap
+    step = (loading.final_gap / low) ** (1.0 / (_GAPS - 1))
+    gaps = [low * step**i for i in range(_GAPS)]
+    if isinstance(loading, ImposedSpeed):
+        shaken = loading.vibration
+        swing = math.tau * shaken.frequency * shaken.amplitude if shaken is not None else 0.0
+        speeds = {loading.speed + swing, loading.speed - swing}
+        return [(gap, speed) for gap in gaps for speed in speeds]
+    if isinstance(loading, ImposedTime):
+        speed = (loading.final_gap - loading.initial_gap) / loading.time
+        return [(gap, speed) for gap in gaps]
+    if not isinstance(loading, ImposedForce) or (loading.force == loading.initial_speed == 0.0):
+        return None
+    plain = RheologicalFilm.of(prepared, ())
+    balance = [loading.force / max(plain.force(gap, 1.0), _TINY) for gap in gaps]
+    first = loading.initial_speed
+    found = [(gap, max(speed, first, key=abs)) for gap, speed in zip(gaps, balance, strict=True)]
+    return found if first >= 0.0 else found + [(gap, first) for gap in gaps]
