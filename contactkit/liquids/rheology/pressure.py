@@ -25,7 +25,7 @@ __all__ = ["BarusViscosity", "PressureViscosity", "RoelandsViscosity"]
 # times that a number was meant in 1/GPa, or in 1/MPa.
 _STEEPEST = 1e-6  # [1/Pa]
 
-_POLE, _POLE_PRESSURE = 9.67, 1.962e8  # Roelands: minus the logarithm of the pole, and p_r [Pa]
+_POLE, _POLE_PRESSURE = 9.67, 1.96e8  # Roelands: minus the logarithm of the pole, and p_r [Pa]
 
 
 def _coefficient(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -116,7 +116,7 @@ class RoelandsViscosity(PressureViscosity):
               \left[\left(1 + \frac{p}{p_r}\right)^Z - 1\right]\right\}, \qquad
               Z = \frac{\alpha\,p_r}{\ln\eta_0 + 9.67}
 
-    with :math:`\eta_0` in Pa.s and :math:`p_r` = 196.2 MPa.
+    with :math:`\eta_0` in Pa.s and :math:`p_r` = 196 MPa.
 
     Parameters
     ----------

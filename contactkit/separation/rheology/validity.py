@@ -1,0 +1,125 @@
+"""Ranges of the rheology of a film along a run: what is left out, tension, memory, heating."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from ...validity import ValidityNumber
+from .choice import PARTS, WORTH, FilmRheology, force_change
+from .film import RheologicalFilm
+
+if TYPE_CHECKING:
+    from ...scene.scenes import SeparationScene
+    from ..effects.prepared import PreparedScene
+
+__all__ = ["rheology_numbers"]
+
+_MOST_POINTS = 33  # of a path; what is stated of it is the largest, to some per cent
+# Tension times the coefficient of pressure: pure oils were held at some 10 MPa, where 20 1/GPa
+# change their viscosity by a fifth. Beyond, the slope at ambient pressure says nothing.
+_MOST_IN_TENSION = 0.2
+_MOST_HEATING = 0.05  # relative change of the viscosity, as that of other neglected effects
+
+
+def rheology_numbers(
+    prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
+) -> tuple[ValidityNumber, ...]:
+    """Evaluate the numbers along pairs of gap [m] and speed [m/s] while the film spans the gap."""
+    step = max(1, math.ceil(len(path) / _MOST_POINTS))
+    # The first point has the thinnest film of an opening.
+    points = [*path[::step], path[-1]]
+    rheology = prepared.rheology
+    found: list[ValidityNumber] = []
+    if rheology is not None:
+        found += _left_out(prepared, rheology, points)
+        if rheology.film is not None:
+            found += _of_laws(prepared, rheology.film, points)
+    return (*found, *_heating(prepared, points))
+
+
+def _left_out(
+    prepared: PreparedScene[SeparationScene],
+    rheology: FilmRheology,
+    points: Sequence[tuple[float, float]],
+) -> Iterator[ValidityNumber]:
+    words = dict(PARTS)
+    for name in rheology.left_out:
+        yield ValidityNumber(
+            name=f"{words[name]}, left out of the force",
+            value=force_change(prepared, name, points),
+            high=WORTH,
+            detail='largest change of the force by it alone; ViscousForce(rheology="all") '
+            "computes it",
+            source="force of the film with and without it",
+        )
+
+
+def _of_laws(
+    prepared: PreparedScene[SeparationScene],
+    film: RheologicalFilm,
+    points: Sequence[tuple[float, float]],
+) -> Iterator[ValidityNumber]:
+    liquid, rheology = prepared.scene.meniscus.liquid, prepared.rheology
+    computed = rheology.computed if rheology is not None else ()
+    pressure, shear = liquid.pressure_viscosity, liquid.shear_viscosity
+    if pressure is not None and "pressure_viscosity" in computed:
+        drops = [(film.peak_pressure(h, v), v) for h, v in points if v != 0.0]
+        tension = max((p for p, v in drops if v > 0.0), default=0.0)
+        compression = max((p for p, v in drops if v < 0.0), default=0.0)
+        yield ValidityNumber(
+            name="tension times pressure coefficient",
+            value=tension * pressure.pressure_coefficient,
+            high=_MOST_IN_TENSION,
+            detail="no viscosity was measured in tension: that at ambient pressure and its slope "
+            "go on as an exponential; TensionLimit bounds the tension",
+            source="alpha p",
+        )
+        yield ValidityNumber(
+            name="pressure over the range of its law",
+            value=compression / pressure.highest_pressure,
+            high=1.0,
+            detail=f"{type(pressure).__name__} fits up to {pressure.highest_pressure:g} Pa",
+            source=pressure.cite,
+        )
+    if shear is not None and "shear_viscosity" in computed:
+        memory = shear.memory(prepared.liquid.viscosity)
+        yield ValidityNumber(
+            name="Deborah number",
+            value=max((memory * abs(v) / h for h, v in points), default=0.0),
+            high=1.0,
+            detail="above 1 the gap opens before the liquid has forgotten its shear: it is "
+            "elastic, which is left out",
+            source="memory of the liquid times h'/h",
+        )
+
+
+def _heating(
+    prepared: PreparedScene[SeparationScene], points: Sequence[tuple[float, float]]
+) -> Iterator[ValidityNumber]:
+    """How far the film heats itself, as a change of its viscosity."""
+    liquid = prepared.scene.meniscus.liquid
+    if liquid.heat_capacity is None:
+        return
+    from .heating import temperature_rise, viscosity_slope
+
+    rise = temperature_rise(prepared, points)
+    slope = viscosity_slope(liquid, prepared.scene.temperature)
+    needs = [
+        f"liquid.{name} [{unit}]"
+        for name, unit in (("density", "kg/m3"), ("thermal_conductivity", "W/m/K"))
+        if getattr(liquid, name) is None
+    ]
+    detail = f"{' and '.join(needs)} is not given" if needs else ""
+    if rise is not None:
+        detail = f"the film heats itself by {rise:.2g} K at most"
+        if slope is None:
+            detail += "; the viscosity is a constant, which no temperature changes"
+    yield ValidityNumber(
+        name="viscosity lost by heating",
+        value=None if rise is None or slope is None else abs(slope) * rise,
+        high=_MOST_HEATING,
+        detail=detail,
+        source="viscous work over heat capacity, or over conduction to the walls",
+    )
