@@ -84,6 +84,11 @@ class FlowLaw(abc.ABC):
     )
     pressure_law: PressureLaw | None = None
 
+    @property
+    def is_newtonian_at_rest(self) -> bool:
+        """Whether the viscosity has a finite limit, and not 0, at low shear rates."""
+        return True
+
     @abc.abstractmethod
     def wall_flow(self, parameter: Array) -> WallFlow:
         """Flow of a half film at ambient pressure at the parameter of the law, positive."""

@@ -83,6 +83,11 @@ class PowerLaw(FlowLaw):
         ratio = math.log(self.consistency / self.plateau_viscosity) / (1.0 - self.exponent)
         return self.plateau_viscosity * math.exp(ratio)
 
+    @property
+    def is_newtonian_at_rest(self) -> bool:
+        """See `FlowLaw.is_newtonian_at_rest`."""
+        return self.plateau_viscosity is not None or self.exponent == 1.0
+
     def wall_flow(self, parameter: Array) -> WallFlow:
         """See `FlowLaw.wall_flow`; the parameter is the stress [Pa]."""
         n, kink = self.exponent, self.plateau_stress
