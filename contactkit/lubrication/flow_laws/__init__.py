@@ -1,0 +1,12 @@
+"""Flow laws: shear, pressure and slip of the liquid in a thin film, and what a squeezed film does.
+
+base           FlowLaw: flux between parallel walls from the pressure gradient, and its inverse.
+gap_flow       Flow between two walls from two half films; roots.
+newtonian      Newtonian liquid.
+power_law      Power law, with the Newtonian plateau if it has one.
+eyring         Eyring's thermally activated flow.
+carreau        Carreau and Yasuda: a bend from plateau to power law.
+pressure_laws  Viscosity over pressure: Barus, Roelands.
+walls          Walls of an axisymmetric film: flats, paraboloid, any profile; rim at a volume.
+squeeze        Pressure and force of a squeezed axisymmetric film of any law.
+"""

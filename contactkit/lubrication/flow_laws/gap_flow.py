@@ -1,0 +1,164 @@
+"""Flow between two walls from that of two half films, with slip at either; roots of flow laws."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ...errors import ConvergenceError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .base import FlowLaw
+
+    Array = NDArray[np.floating[Any]]
+
+__all__ = ["GapFlow", "WallFlow", "alike", "positive_root", "unlike"]
+
+_MOST = 200  # iterations: Newton's method takes 3 to 12, halving of a bracket over 300 decades 60
+
+
+class WallFlow(NamedTuple):
+    """Flow of a half film, from the plane without stress to a wall; arrays of one shape."""
+
+    stress: Array
+    """Stress at the wall [Pa]."""
+    rate: Array
+    """Shear rate at the wall [1/s]."""
+    mean_rate: Array
+    """Mean shear rate of the half film, its velocity over its height [1/s]."""
+    apparent_rate: Array
+    """Rate Gamma of its flux without slip [1/s]."""
+    stress_slope: Array
+    """d ln(stress)/d ln(parameter) [-]."""
+    rate_slope: Array
+    """d ln(rate)/d ln(parameter) [-]."""
+
+
+class GapFlow(NamedTuple):
+    """Flow between two walls at ambient pressure; arrays of one shape."""
+
+    drive: Array
+    """Half the gap times the pressure gradient, the mean of both wall stresses [Pa]."""
+    rate: Array
+    """Rate Gamma of the flux with slip, 6 q/h^2 [1/s]."""
+    wall_stress: Array
+    """Larger of both wall stresses [Pa]."""
+    wall_rate: Array
+    """Larger shear rate at a wall [1/s]."""
+    mean_rate: Array
+    """Mean magnitude of the shear rate over the gap [1/s]."""
+    drive_slope: Array
+    """d ln(drive)/d ln(parameter) [-]."""
+    rate_slope: Array
+    """d ln(rate)/d ln(parameter) [-]."""
+
+    @property
+    def exponent(self) -> Array:
+        """Slope d ln(drive)/d ln(rate): 1 of a Newtonian liquid, n of a power law."""
+        return self.drive_slope / self.rate_slope
+
+
+def alike(flow: WallFlow, slip_ratio: Array) -> GapFlow:
+    """Flow between two walls of one slip length over gap, b/h [-]."""
+    slip = 6.0 * slip_ratio * flow.rate
+    rate = flow.apparent_rate + slip
+    rise = (3.0 * flow.rate - 2.0 * flow.apparent_rate) * flow.stress_slope
+    slope = (rise + slip * flow.rate_slope) / rate
+    return GapFlow(
+        flow.stress, rate, flow.stress, flow.rate, flow.mean_rate, flow.stress_slope, slope
+    )
+
+
+def unlike(law: FlowLaw, flow: WallFlow, less: Array, more: Array) -> GapFlow:
+    r"""Flow between walls of two slip lengths over gap, at the flow of the half with less slip.
+
+    The plane without stress lies where both halves have one velocity, with
+    :math:`S = \tau_1 + \tau_2` and :math:`C` the mean rates:
+
+    .. math:: \frac{b_1}{h} \dot\gamma_1 + \frac{\tau_1 C_1}{S}
+              = \frac{b_2}{h} \dot\gamma_2 + \frac{\tau_2 C_2}{S}
+    """
+
+    def residual(parameter: Array) -> tuple[Array, Array]:
+        excess, _, by_other = _velocity_difference(flow, law.wall_flow(parameter), less, more)
+        scale = less * flow.rate + flow.mean_rate
+        return excess / scale, -by_other / scale
+
+    # The plane of a Newtonian liquid, and a stress that is never the larger one.
+    start = law.of_stress(flow.stress * (1.0 + 2.0 * less) / (1.0 + 2.0 * more))
+    other = law.wall_flow(positive_root(residual, start))
+    _, by_this, by_other = _velocity_difference(flow, other, less, more)
+    follows = -by_this / by_other
+    both = flow.stress + other.stress
+    weight, beside = flow.stress / both, other.stress / both
+    slip = 6.0 * (less * flow.rate * weight + more * other.rate * beside)
+    inner = 2.0 * (weight**2 * flow.apparent_rate + beside**2 * other.apparent_rate)
+    drive_slope = weight * flow.stress_slope + beside * other.stress_slope * follows
+    # From tau_i (b_i/h) rate_i and the moments of the rate, whose slope is tau_i^2 rate_i.
+    slope = slip * -drive_slope - 2.0 * inner * drive_slope
+    for one, part, ratio, factor in (
+        (flow, weight, less, np.ones_like(follows)),
+        (other, beside, more, follows),
+    ):
+        by = 6.0 * ratio * one.rate * part * (one.stress_slope + one.rate_slope)
+        slope = slope + factor * (by + 6.0 * part**2 * one.rate * one.stress_slope)
+    rate = slip + inner
+    mean = weight * flow.mean_rate + beside * other.mean_rate
+    return GapFlow(0.5 * both, rate, flow.stress, flow.rate, mean, drive_slope, slope / rate)
+
+
+def _velocity_difference(
+    one: WallFlow, other: WallFlow, less: Array, more: Array
+) -> tuple[Array, Array, Array]:
+    """Velocity over gap of one half less that of the other, and its slopes over ln(parameter)."""
+    both = one.stress + other.stress
+    mean = (one.stress * one.mean_rate - other.stress * other.mean_rate) / both
+    excess = less * one.rate - more * other.rate + mean
+    # d(tau C) = rate d(tau).
+    by_one = less * one.rate * one.rate_slope
+    by_one = by_one + (one.rate - mean) * one.stress / both * one.stress_slope
+    by_other = -more * other.rate * other.rate_slope
+    by_other = by_other - (other.rate + mean) * other.stress / both * other.stress_slope
+    return excess, by_one, by_other
+
+
+def positive_root(residual: Callable[[Array], tuple[Array, Array]], start: Array) -> Array:
+    """Root of functions that fall over a positive variable: Newton in its logarithm, bracketed.
+
+    Parameters
+    ----------
+    residual : callable
+        Value, positive below the root, and minus its slope over the logarithm, of an array.
+    start : ndarray
+        Positive first guess.
+
+    Raises
+    ------
+    ConvergenceError
+        If it does not settle.
+
+    Examples
+    --------
+    >>> root = positive_root(lambda x: (np.log(2.0 / x**2), 2.0 + 0.0 * x), np.array([1e3]))
+    >>> round(float(root[0] ** 2), 14)
+    2.0
+    """
+    x = np.array(start, dtype=float)
+    low, high = np.zeros_like(x), np.full_like(x, np.inf)
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        for _ in range(_MOST):
+            value, slope = residual(x)
+            low, high = np.where(value > 0.0, x, low), np.where(value < 0.0, x, high)
+            step = np.clip(value / slope, -3.0, 3.0)  # at most a factor of 20 a step
+            step = np.where(np.isfinite(step), step, -1.0)  # too large a stress overflows
+            settled = np.abs(step) <= 1e-9  # whose square is round-off
+            moved = x * np.exp(step)
+            middle = np.sqrt(np.maximum(low, 1e-300)) * np.sqrt(np.minimum(high, 1e300))
+            x = np.where(settled | ((moved > low) & (moved < high)), moved, middle)
+            if settled.all():
+                return x
+    raise ConvergenceError("the flow law has no wall stress for this flux", x)
