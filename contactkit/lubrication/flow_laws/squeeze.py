@@ -34,7 +34,7 @@ __all__ = ["SqueezedFilm", "squeeze_film", "squeeze_force"]
 # Gaps of a sphere have branch points at a height of pi/2 over the logarithm of the radius, rates
 # of Eyring's and Carreau's laws at about as much. Panels of 1.6 with ten nodes leave 1e-12.
 _PANEL = 1.6
-_NODES = 10
+NODES = 10
 _INNER = 11.0  # logarithms below the core: of the force exp(-33) is left out
 _FAR = 25.0  # logarithms beyond the core, where a film without a rim ends
 _TOGETHER = 64  # pairs solved in one system, for memory
@@ -181,20 +181,20 @@ def _joined(parts: list[Array], widest: int) -> Array:
 @lru_cache(maxsize=32)
 def _rule(panels: int) -> tuple[Array, Array, Array]:
     """Nodes on (0, 1), their weights, and the matrix of integrals from each node to 1."""
-    nodes, weights = (np.array(one) for one in gauss_legendre(_NODES))
+    nodes, weights = (np.array(one) for one in gauss_legendre(NODES))
     starts = np.arange(panels)[:, None]
     points = ((starts + nodes) / panels).ravel()
     every = np.tile(weights, panels) / panels
     # Within a panel: Lagrange polynomials of the nodes, integrated from a node to the end.
-    powers = np.polynomial.legendre.legvander(2.0 * nodes - 1.0, _NODES - 1)
+    powers = np.polynomial.legendre.legvander(2.0 * nodes - 1.0, NODES - 1)
     inverse = np.linalg.inv(powers)
-    inner = np.empty((_NODES, _NODES))
+    inner = np.empty((NODES, NODES))
     for i, node in enumerate(nodes):
         x = node + (1.0 - node) * nodes
-        basis = np.polynomial.legendre.legvander(2.0 * x - 1.0, _NODES - 1) @ inverse
+        basis = np.polynomial.legendre.legvander(2.0 * x - 1.0, NODES - 1) @ inverse
         inner[i] = (1.0 - node) * weights @ basis
     matrix = np.kron(np.eye(panels), inner) / panels
-    later = np.kron(np.triu(np.ones((panels, panels)), 1), np.ones((_NODES, 1)))
+    later = np.kron(np.triu(np.ones((panels, panels)), 1), np.ones((NODES, 1)))
     matrix += np.kron(later, weights) / panels
     return points, every, matrix
 

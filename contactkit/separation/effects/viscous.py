@@ -582,7 +582,7 @@ class TensionLimit(FilmLimit):
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """See `FilmLimit.prepare`."""
         if prepared.rheology is not None and prepared.rheology.film is not None:
-            return prepared.rheology.film.tension_limiter()
+            return prepared.rheology.film.limiter()
         film, drop = viscous_film(prepared), self.tension
         n, radius, height = film.menisci, film.radius, film.height
         disc = (

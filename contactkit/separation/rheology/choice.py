@@ -11,13 +11,16 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
 from attrs import field, frozen
 
 from ...errors import PlanError
 from ...scene.loading import ImposedForce, ImposedSpeed, ImposedTime
 from .film import RheologicalFilm
+from .prepared_film import PreparedFilm
 
 if TYPE_CHECKING:
+    from ...scene.loading import SeparationLoading
     from ...scene.scenes import SeparationScene
     from ..effects.prepared import PreparedScene
     from ..effects.viscous import ViscousForce
@@ -30,6 +33,10 @@ that size: a film 170 times as wide as high loses 1 % at its rim, and 4 K change
 
 _GAPS = 17  # of the expected motion: a change of the force is known to a tenth of itself
 _TINY = 1e-300
+# Reach of tables beyond the motion that a Newtonian film would let expect under a force: a liquid
+# that thins lets go faster, and what lies beyond is computed directly.
+_NEARER, _FARTHER, _FASTER = 0.3, 1.5, 100.0
+_FASTEST = 1e6  # [1/s], where no motion is expected
 
 
 class Part(NamedTuple):
@@ -57,14 +64,14 @@ class FilmRheology:
         Parts that it does not.
     changes : mapping
         What each part changes the force by, alone, on the expected motion [-].
-    film : RheologicalFilm, optional
+    film : PreparedFilm, optional
         The film with what is computed. None: it is Newtonian and does not slip.
     """
 
     computed: tuple[str, ...]
     left_out: tuple[str, ...]
     changes: Mapping[str, float] = field(factory=dict)
-    film: RheologicalFilm | None = None
+    film: PreparedFilm | None = None
 
     @property
     def is_linear(self) -> bool:
@@ -105,7 +112,8 @@ def film_rheology(prepared: PreparedScene[SeparationScene]) -> FilmRheology | No
     given = tuple(part.name for part in PARTS if getattr(liquid, part.name) is not None)
     if viscous is None or not (given or scene.meniscus.slips):
         return None
-    changes = {} if viscous.rheology == "all" else _changes(prepared, given)
+    path = _expected(prepared)
+    changes = {} if path is None else {one: force_change(prepared, one, path) for one in given}
     computed = prepared.computed_rheology
     if computed is None:
         computed = _computed(viscous, given, changes)
@@ -113,7 +121,20 @@ def film_rheology(prepared: PreparedScene[SeparationScene]) -> FilmRheology | No
     if not computed and not scene.meniscus.slips:
         return FilmRheology((), left, changes)
     _check_film(prepared, computed, changes)
-    return FilmRheology(computed, left, changes, RheologicalFilm.of(prepared, computed))
+    film = RheologicalFilm.of(prepared, computed)
+    return FilmRheology(computed, left, changes, _made(scene.loading, film, path))
+
+
+def _made(
+    loading: SeparationLoading, film: RheologicalFilm, path: list[tuple[float, float]] | None
+) -> PreparedFilm:
+    """Film with tables over the motion that is expected, and over more where it is not imposed."""
+    fastest = max((film.shear_per_speed(h) * abs(v) for h, v in path or ()), default=0.0)
+    low, high = loading.smallest_gap or 1e-3 * loading.final_gap, loading.final_gap
+    if isinstance(loading, ImposedForce):
+        low, high, fastest = _NEARER * low, _FARTHER * high, _FASTER * (fastest or _FASTEST)
+    edge = 1.0 + 1e-9
+    return PreparedFilm(film, (low / edge, high * edge), fastest * edge)
 
 
 def _computed(
@@ -146,16 +167,6 @@ def _check_film(
         )
 
 
-def _changes(
-    prepared: PreparedScene[SeparationScene], given: tuple[str, ...]
-) -> Mapping[str, float]:
-    """What each part alone changes the force by on the expected motion [-]; empty if not known."""
-    path = _expected(prepared)
-    if path is None:
-        return {}
-    return {name: force_change(prepared, name, path) for name in given}
-
-
 def force_change(
     prepared: PreparedScene[SeparationScene], name: str, path: Sequence[tuple[float, float]]
 ) -> float:
@@ -163,15 +174,14 @@ def force_change(
 
     Where the liquid of a scene cavitates, that of the force of the cavitated film.
     """
+    moving = [(gap, speed) for gap, speed in path if speed != 0.0]
+    if not moving:
+        return 0.0
+    gaps, speeds = np.array(moving).T
     plain, changed = (RheologicalFilm.of(prepared, parts) for parts in ((), (name,)))
-    worst = 0.0
-    for gap, speed in path:
-        if speed == 0.0:
-            continue
-        one, other = (film.bounded_force(gap, speed) for film in (plain, changed))
-        if one != 0.0:
-            worst = max(worst, abs(other / one - 1.0))
-    return worst
+    wet = plain.radii(gaps) > 0.0
+    before, after = (one.bounded_forces(gaps[wet], speeds[wet]) for one in (plain, changed))
+    return float(np.abs(after / before - 1.0).max(initial=0.0))
 
 
 def _expected(prepared: PreparedScene[SeparationScene]) -> list[tuple[float, float]] | None:
@@ -195,7 +205,7 @@ def _expected(prepared: PreparedScene[SeparationScene]) -> list[tuple[float, flo
     if not isinstance(loading, ImposedForce) or (loading.force == loading.initial_speed == 0.0):
         return None
     plain = RheologicalFilm.of(prepared, ())
-    balance = [loading.force / max(plain.force(gap, 1.0), _TINY) for gap in gaps]
+    balance = [loading.force / max(plain.newtonian_force(gap, 1.0), _TINY) for gap in gaps]
     first = loading.initial_speed
     found = [(gap, max(speed, first, key=abs)) for gap, speed in zip(gaps, balance, strict=True)]
     return found if first >= 0.0 else found + [(gap, first) for gap in gaps]

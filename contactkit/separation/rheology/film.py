@@ -1,36 +1,35 @@
 """Film of a liquid whose viscosity depends on pressure and shear, or which slips: force, pressure.
 
 Between discs and under a sphere the flux at each radius follows from the motion, so that any flow
-law gives the pressure by one integral (`contactkit.lubrication.flow_laws.squeeze`). A film whose
-viscosity stays is proportional to the speed, slip or not; any other is F(h, v).
+law gives the pressure by one integral (`contactkit.lubrication.flow_laws.squeeze`).
 """
 
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import evolve, frozen
 
-from ...errors import InfeasibleError
 from ...lubrication import squeeze_film as newtonian
 from ...lubrication.flow_laws.base import FlowLaw
 from ...lubrication.flow_laws.newtonian import Newtonian
 from ...lubrication.flow_laws.squeeze import SqueezedFilm, squeeze_film
 from ...lubrication.flow_laws.walls import Flats, Paraboloid, Walls
-from ..effects.force_law import ForceLaw
 from .limits import truncated_force
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from ...scene.scenes import SeparationScene
-    from ..effects.base import Limiter
     from ..effects.film_shape import FilmShape
     from ..effects.prepared import PreparedScene
 
-__all__ = ["RheologicalFilm"]
+    Array = NDArray[np.floating[Any]]
 
-_STEP = 1e-6  # relative, of gap and speed, of the slopes: forces are right to 1e-12 of themselves
+__all__ = ["RheologicalFilm"]
 
 
 @frozen(eq=False)
@@ -81,20 +80,65 @@ class RheologicalFilm:
         return isinstance(self.law, Newtonian) and self.law.pressure_law is None
 
     @property
+    def slips(self) -> bool:
+        """Whether the liquid slips at a wall."""
+        return max(self.law.slip_length) > 0.0
+
+    @cached_property
     def _walls(self) -> Walls:
         sphere = self.shape.sphere_radius
         return Flats() if math.isinf(sphere) else Paraboloid(radius=sphere)
 
-    def squeezed(self, gap: Any, speed: Any, radius: Any) -> SqueezedFilm:
-        """One of the films at gaps [m], speeds [m/s] and radii of its rim [m]."""
-        return squeeze_film(self.law, self._walls, gap, speed, radius)
+    @cached_property
+    def _linear(self) -> Newtonian:
+        """Law of the liquid at rest, with its slip."""
+        return Newtonian(viscosity=self.viscosity, slip_length=self.law.slip_length)
+
+    def _squeezed(self, gap: Array, speed: Array) -> SqueezedFilm:
+        return squeeze_film(self.law, self._walls, gap, speed, self.radii(gap))
+
+    def radii(self, gap: Array) -> Array:
+        """Radii of the rim [m] at gaps [m]."""
+        found = [self.shape.radius(one) for one in gap.ravel().tolist()]
+        return np.reshape(found, gap.shape)
+
+    def forces(self, gap: Array, speed: Array) -> tuple[Array, Array]:
+        """Forces of all films [N] at gaps [m] and speeds [m/s], and those at the viscosity at rest.
+
+        -inf where no pressure closes the gap so fast. The films have a radius.
+        """
+        linear = squeeze_film(self._linear, self._walls, gap, speed, self.radii(gap)).force
+        force = linear if self.is_linear else self._squeezed(gap, speed).force
+        n = self.shape.menisci
+        return n * np.asarray(force), n * np.asarray(linear)
+
+    def bounded_forces(self, gap: Array, speed: Array) -> Array:
+        """Forces [N] of films whose pressure is truncated at the strength of the liquid."""
+        if gap.ndim > 1:  # one call has nodes of one number of panels
+            return np.array([self.bounded_forces(*one) for one in zip(gap, speed, strict=True)])
+        film, radii = self._squeezed(gap, speed), self.radii(gap)
+        forces = np.array(film.force, dtype=float)
+        over = (speed > 0.0) & (-np.asarray(film.centre_pressure) > self.strength)
+        for place in zip(*np.nonzero(over), strict=True):
+            one = (film.radius[place], film.gradient[place])
+            forces[place] = truncated_force(*one, float(radii[place]), self.strength)
+        return self.shape.menisci * forces
+
+    def peak_pressures(self, gap: Array, speed: Array) -> Array:
+        """Largest pressure differences from ambient [Pa] of full films."""
+        return np.abs(np.asarray(self._squeezed(gap, speed).centre_pressure))
 
     def force(self, gap: float, speed: float) -> float:
         """Force of all films [N]; -inf where no pressure closes the gap so fast."""
-        radius = self.shape.radius(gap)
-        if speed == 0.0 or not radius > 0.0:
+        if speed == 0.0 or not self.shape.radius(gap) > 0.0:
             return 0.0
-        return self.shape.menisci * float(self.squeezed(gap, speed, radius).force)
+        return float(self.forces(np.array([gap]), np.array([speed]))[0][0])
+
+    def bounded_force(self, gap: float, speed: float) -> float:
+        """See `bounded_forces`."""
+        if speed == 0.0 or not self.shape.radius(gap) > 0.0:
+            return 0.0
+        return float(self.bounded_forces(np.array([gap]), np.array([speed]))[0])
 
     def newtonian_force(self, gap: float, speed: float) -> float:
         """Force [N] of the same films without rheology and slip."""
@@ -106,74 +150,23 @@ class RheologicalFilm:
             one = newtonian.sphere_force(film.sphere_radius, gap, height, speed, self.viscosity)
         return film.menisci * float(one)
 
-    def force_ratio(self, gap: float, speed: float) -> float:
-        """Force over that without rheology and slip [-]; 1 at rest."""
+    def linear_force(self, gap: float, speed: float) -> float:
+        """Force [N] at the viscosity at rest, with slip: between flats in closed form."""
         plain = self.newtonian_force(gap, speed)
-        return self.force(gap, speed) / plain if plain else 1.0
-
-    def peak_pressure(self, gap: float, speed: float) -> float:
-        """Largest pressure difference from ambient [Pa]; the strength where it cavitates."""
+        lower, upper = self.law.slip_length
+        if not self.slips or plain == 0.0:
+            return plain
+        if math.isinf(self.shape.sphere_radius):
+            both = lower + upper
+            return plain * gap * (gap + both) / (gap * gap + 4.0 * gap * both + 12.0 * lower * upper)
         radius = self.shape.radius(gap)
-        if speed == 0.0 or not radius > 0.0:
-            return 0.0
-        peak = abs(float(self.squeezed(gap, speed, radius).centre_pressure))
-        return min(peak, self.strength) if speed > 0.0 else peak
+        one = squeeze_film(self._linear, self._walls, gap, speed, radius).force
+        return self.shape.menisci * float(one)
 
-    def bounded_force(self, gap: float, speed: float) -> float:
-        """Force [N] of films whose pressure is truncated at the strength of the liquid."""
-        radius = self.shape.radius(gap)
-        if speed == 0.0 or not radius > 0.0:
-            return 0.0
-        film = self.squeezed(gap, speed, radius)
-        if speed < 0.0 or -float(film.centre_pressure) <= self.strength:
-            return self.shape.menisci * float(film.force)
-        return self.shape.menisci * truncated_force(film, radius, self.strength)
-
-    def tension_limiter(self) -> Limiter:
-        """Force that a truncated pressure leaves, at a gap, a speed and a force without limits."""
-
-        def limiter(gap: float, speed: float, force: float) -> float:
-            return self.bounded_force(gap, speed) if speed > 0.0 else force
-
-        return limiter
-
-    def force_law(self) -> ForceLaw:
-        """Force as it is prepared for a motion."""
+    def shear_per_speed(self, gap: float) -> float:
+        """Fastest shear at a wall of a Newtonian film over the speed [1/m]."""
         film = self.shape
-        marks = (film.full_gap,) if 0.0 < film.full_gap < math.inf else ()
-        end = film.level
-        if self.is_linear:
-            return ForceLaw(self.force, marks, end, rate="proportional")
-        return ForceLaw(self.force, marks, end, slopes=self._slopes, check=self._check)
-
-    def _slopes(self, gap: float, speed: float) -> tuple[float, float]:
-        """Slopes of the force [N/m], [N.s/m], by central differences of one call."""
-        radius = self.shape.radius
-        away = speed or self._slow(gap)
-        gaps = np.array([gap * (1.0 - _STEP), gap * (1.0 + _STEP), gap, gap])
-        speeds = np.array([speed, speed, away * (1.0 - _STEP), away * (1.0 + _STEP)])
-        radii = np.array([radius(one) for one in gaps.tolist()])
-        forces = self.shape.menisci * np.asarray(self.squeezed(gaps, speeds, radii).force)
-        by_gap = (forces[1] - forces[0]) / (gaps[1] - gaps[0])
-        return float(by_gap), float((forces[3] - forces[2]) / (speeds[3] - speeds[2]))
-
-    def _slow(self, gap: float) -> float:
-        """Speed [m/s] that is as good as none: at a millionth of the pressure of the atmosphere."""
-        plain = self.newtonian_force(gap, 1.0)
-        area = self.shape.menisci * math.pi * self.shape.radius(gap) ** 2
-        return 0.1 * min(area, 1.0) / plain if plain > 0.0 else 1.0
-
-    def _check(self, gap: float, speed: float) -> None:
-        """Refuse a motion at which no pressure carries the flux.
-
-        Raises
-        ------
-        InfeasibleError
-            With the speed and the cure.
-        """
-        if speed < 0.0 and not math.isfinite(self.force(gap, speed)):
-            raise InfeasibleError(
-                f"the film cannot close at {-speed:g} m/s at a gap of {gap:g} m: its viscosity "
-                "grows with pressure without bound, and no pressure drives the liquid out; close "
-                "more slowly, or take RoelandsViscosity, which grows less"
-            )
+        if math.isinf(film.sphere_radius):
+            return 3.0 * film.radius(gap) / (gap * gap)
+        place = min(film.radius(gap), math.sqrt(2.0 / 3.0 * film.sphere_radius * gap))
+        return 3.0 * place / (gap + place * place / (2.0 * film.sphere_radius)) ** 2

@@ -17,19 +17,17 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-    from ...lubrication.flow_laws.squeeze import SqueezedFilm
-
 __all__ = ["truncated_force"]
 
-def truncated_force(film: SqueezedFilm, rim_radius: float, strength: float) -> float:
+def truncated_force(radius: Array, gradient: Array, rim_radius: float, strength: float) -> float:
     r"""Force [N] of an opening film whose pressure is cut off at a tension (Gumbel).
 
     .. math:: F = \int_{r_c}^a \pi r^2 \left|\frac{dp}{dr}\right| dr, \qquad p(r_c) = -\Delta p
 
     Parameters
     ----------
-    film : SqueezedFilm
-        One film at one gap and speed, without the limit.
+    radius, gradient : ndarray, shape (n,)
+        Nodes [m] and gradient of the pressure [Pa/m] of a `SqueezedFilm` at one gap and one speed.
     rim_radius : float
         Radius of its rim a [m], or inf.
     strength : float
@@ -49,16 +47,16 @@ def truncated_force(film: SqueezedFilm, rim_radius: float, strength: float) -> f
     >>> from contactkit.lubrication.flow_laws.walls import Flats
     >>> film = squeeze(Newtonian(viscosity=0.1), Flats(), 1e-5, 1e-2, 3e-3)
     >>> exact = film_limits.disc_tension_truncated(film.force, math.pi * 9e-6, 1e6)
-    >>> round(truncated_force(film, 3e-3, 1e6) / exact, 9)
+    >>> round(truncated_force(film.radius, film.gradient, 3e-3, 1e6) / exact, 9)
     1.0
     """
-    rim = rim_radius if math.isfinite(rim_radius) else float(film.radius[-1])
-    count = film.radius.size // NODES
+    rim = rim_radius if math.isfinite(rim_radius) else float(radius[-1])
+    count = radius.size // NODES
     # Both integrands over the logarithm of the radius, at the nodes of each panel.
-    slope = (film.radius * film.gradient).reshape(count, NODES)
-    area = math.pi * (film.radius**2).reshape(count, NODES)
+    slope = (radius * gradient).reshape(count, NODES)
+    area = math.pi * (radius**2).reshape(count, NODES)
     nodes, weights = (np.array(one) for one in gauss_legendre(NODES))
-    width = -math.log(film.radius[0] / rim) / (count - nodes[0])  # of a panel
+    width = -math.log(radius[0] / rim) / (count - nodes[0])  # of a panel
     falls, parts = width * slope @ weights, width * (area * slope) @ weights
     outside = np.append(np.cumsum(falls[::-1])[::-1], 0.0)  # tension where each panel begins
     panel = int(np.count_nonzero(outside > strength)) - 1

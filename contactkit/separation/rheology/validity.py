@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...validity import ValidityNumber
 from .choice import PARTS, WORTH, FilmRheology, force_change
-from .film import RheologicalFilm
+from .prepared_film import PreparedFilm
 
 if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene
@@ -58,7 +58,7 @@ def _left_out(
 
 def _of_laws(
     prepared: PreparedScene[SeparationScene],
-    film: RheologicalFilm,
+    film: PreparedFilm,
     points: Sequence[tuple[float, float]],
 ) -> Iterator[ValidityNumber]:
     liquid, rheology = prepared.scene.meniscus.liquid, prepared.rheology
