@@ -7,6 +7,9 @@ power_law      Power law, with the Newtonian plateau if it has one.
 eyring         Eyring's thermally activated flow.
 carreau        Carreau and Yasuda: a bend from plateau to power law.
 pressure_laws  Viscosity over pressure: Barus, Roelands.
+density        Density over pressure: Dowson and Higginson.
 walls          Walls of an axisymmetric film: flats, paraboloid, any profile; rim at a volume.
 squeeze        Pressure and force of a squeezed axisymmetric film of any law.
+closed_forms   Squeezed films in closed form: Scott, Barus, Vinogradova.
+heating        Temperature rise of a film by its own shear.
 """
