@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 from attrs import field, frozen
 
-from ..numerics.roots import bracketed_root
 from ..scene.column import Column
 from .cavity.law import Cavitation
 from .effects.base import Limiter, LimitKind, SeparationForce
@@ -18,7 +17,8 @@ from .integrator.radau import Forces
 
 __all__ = ["Film", "ForcesAt", "balance_speed"]
 
-_SPEEDS = (math.log(1e-40), math.log(1e12))  # [m/s], between which a pull is balanced
+_SLOW = 1e-15  # speed [m/s] at which every liquid film is as at rest
+_MOST_SECANTS, _LONGEST, _FLATTEST = 60, 20.0, 0.02  # steps, in logarithms of force and speed
 _DIFFERENCE = 1e-7  # relative, of gap and speed, for the slopes of a force that a limit bounds
 
 
@@ -354,7 +354,7 @@ class Film:
     def opening_time(self, start: float, end: float, pull: float) -> float:
         """Time [s] in which a pull [N] opens the gap [m] against what grows with the speed alone.
 
-        Without limits and static forces, by the rule of six nodes in panels of the gap.
+        To some per cent, without limits and static forces.
         """
 
         def slowness(gap: float, _: float) -> float:
@@ -375,18 +375,24 @@ class Film:
 
 
 def balance_speed(force: Callable[[float], float], pull: float) -> float:
-    """Speed [m/s] at which a force that grows with it is a pull [N], both positive.
+    """Speed [m/s] at which a force that grows with it is a pull [N], both positive, to 1e-3.
+
+    By the secant method in logarithms, from a speed so low that the force is proportional to it.
 
     Examples
     --------
-    >>> round(balance_speed(lambda speed: 4.0 * speed**0.5, 2.0), 12)
+    >>> round(balance_speed(lambda speed: 4.0 * speed**0.5, 2.0), 3)
     0.25
     """
-
-    def excess(log_speed: float) -> float:
-        return math.log(max(force(math.exp(log_speed)), 1e-300) / pull)
-
-    return math.exp(bracketed_root(excess, *_SPEEDS))
+    x = math.log(_SLOW)
+    missing, slope = math.log(pull / force(_SLOW)), 1.0
+    for _ in range(_MOST_SECANTS):
+        step = min(missing / slope, _LONGEST) if missing > 0.0 else missing / slope
+        left = math.log(pull / force(math.exp(x + step)))
+        x, slope, missing = x + step, max((missing - left) / step, _FLATTEST), left
+        if abs(missing) < 1e-3 * slope:
+            break
+    return math.exp(x)
 
 
 def _sum(one: LawAt, other: LawAt) -> LawAt:

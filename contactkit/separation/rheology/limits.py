@@ -51,19 +51,20 @@ def truncated_force(radius: Array, gradient: Array, rim_radius: float, strength:
     1.0
     """
     rim = rim_radius if math.isfinite(rim_radius) else float(radius[-1])
-    count = radius.size // NODES
-    # Both integrands over the logarithm of the radius, at the nodes of each panel.
-    slope = (radius * gradient).reshape(count, NODES)
-    area = math.pi * (radius**2).reshape(count, NODES)
     nodes, weights = (np.array(one) for one in gauss_legendre(NODES))
-    width = -math.log(radius[0] / rim) / (count - nodes[0])  # of a panel
-    falls, parts = width * slope @ weights, width * (area * slope) @ weights
+    # Over the logarithm of the radius, at the nodes of each panel.
+    place = np.log(radius / rim).reshape(-1, NODES)
+    slope = (radius * gradient).reshape(-1, NODES)
+    area = math.pi * (radius * radius).reshape(-1, NODES)
+    widths = (place[:, -1] - place[:, 0]) / (nodes[-1] - nodes[0])
+    ends = place[:, -1] + widths * (1.0 - nodes[-1])
+    falls, parts = widths * (slope @ weights), widths * ((area * slope) @ weights)
     outside = np.append(np.cumsum(falls[::-1])[::-1], 0.0)  # tension where each panel begins
     panel = int(np.count_nonzero(outside > strength)) - 1
     if panel < 0:
         return float(parts.sum())
     smooth = np.linalg.solve(legvander(2.0 * nodes - 1.0, NODES - 1), np.log(slope[panel]))
-    end = math.log(rim) + width * (panel + 1 - count)
+    width, end = float(widths[panel]), math.log(rim) + float(ends[panel])
 
     def beyond(reach: float) -> tuple[Array, Array]:
         """Integrand from a reach of 0 to 2 before the end of the panel, and squares of the radius.
