@@ -7,7 +7,6 @@ from typing import ClassVar
 
 from attrs import field, frozen
 
-from ...errors import DescriptionError
 from ...units import si
 from ...validators import Described, non_negative, positive
 
@@ -72,19 +71,8 @@ class DowsonHigginsonDensity(PressureDensity):
     source: str = ""
 
     def relative_change(self, pressure: float) -> float:
-        """See `PressureDensity.relative_change`; a pressure below ambient is negative.
+        """See `PressureDensity.relative_change`; in tension by the compressibility at ambient."""
+        from ...lubrication.flow_laws.density import dowson_higginson
 
-        Raises
-        ------
-        DescriptionError
-            If the law is taken to a tension of 1/(a + b), at which it has no density left.
-        """
-        a, b = self.initial_compressibility, self.stiffening
-        if not 1.0 + (a + b) * pressure > 0.0:
-            raise DescriptionError(
-                "DowsonHigginsonDensity.relative_change(pressure)",
-                pressure,
-                f"be above {-1.0 / (a + b):g}, where the law has no density left",
-                unit="Pa",
-            )
-        return a * pressure / (1.0 + b * pressure)
+        ratio, _ = dowson_higginson(pressure, self.initial_compressibility, self.stiffening)
+        return float(ratio) - 1.0

@@ -140,6 +140,16 @@ def _compression(
 ) -> ValidityNumber:
     modulus = prepared.liquid.given("bulk_modulus")
     largest = max((load.pressure for load in loads), default=None)
+    law = prepared.scene.meniscus.liquid.pressure_density
+    if law is not None and largest is not None:
+        return ValidityNumber(
+            name="change of the density over pressure",
+            value=abs(law.relative_change(-largest)),
+            high=_MOST,
+            detail="the film is taken for incompressible; its density would change by this "
+            "fraction",
+            source="Dowson and Higginson 1966",
+        )
     known = modulus is not None and largest is not None
     return ValidityNumber(
         name="pressure over bulk modulus",

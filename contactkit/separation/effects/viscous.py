@@ -20,7 +20,7 @@ from ...validators import choice, finite, optional, positive
 from ...validity import ValidityNumber
 from ..cavity.law import Cavitation, CavityLaw
 from ..face.shape import closed_form, on_face, shape_of
-from .base import CAVITY, FilmLimit, ForcePart, Limiter, LimitKind, SeparationForce
+from .base import CAVITY, FilmLimit, FilmStatus, ForcePart, Limiter, LimitKind, SeparationForce
 from .constant_force import constant_force_time
 from .film_shape import FilmShape, film_shape, needs_extent
 from .film_validity import apparent_viscosity, film_numbers
@@ -42,6 +42,7 @@ __all__ = [
     "ViscousPart",
     "keeps_radius",
     "viscous_film",
+    "viscous_law",
 ]
 
 
@@ -109,6 +110,29 @@ class ViscousPart(ForcePart):
             )
         return self.impulse / time
 
+    @property
+    def temperature_rise(self) -> float:
+        """Bound on how far the film heats itself over the run [K].
+
+        The smaller of two: all work stays in the liquid, and walls of constant temperature take up
+        all heat.
+
+        Raises
+        ------
+        NotSimulatedError
+            If the liquid has neither a `heat_capacity` with a density, nor a
+            `thermal_conductivity`.
+        """
+        from ..rheology.heating import temperature_rise
+
+        found = temperature_rise(self.result.plan.prepared, _wet_path(self.result))
+        if found is None:
+            raise NotSimulatedError(
+                "no temperature rise of the film: give liquid.thermal_conductivity [W/m/K], or "
+                "liquid.heat_capacity [J/kg/K] and density [kg/m3]"
+            )
+        return found
+
     def time_at_constant_force(self, force: float | None = None) -> float:
         """Time [s] that a constant pull [N] takes to open the gap; inf if it never does.
 
@@ -133,7 +157,19 @@ class ViscousPart(ForcePart):
                 hint="give the pull here, or as ImposedForce(force=...)",
             )
         prepared = plan.prepared
-        return constant_force_time(prepared, viscous_film(prepared), _law(prepared), force)
+        return constant_force_time(prepared, viscous_film(prepared), viscous_law(prepared), force)
+
+
+def _wet_path(result: RunView) -> list[tuple[float, float]]:
+    """Gaps [m] and speeds [m/s] of a run while its film spans the gap."""
+    gaps, loading = result.gap, result.plan.scene.loading
+    if isinstance(loading, ImposedTime):
+        whole = gaps <= result.plan.film.end
+        speeds = (gaps[-1] - gaps[0]) / loading.time + 0.0 * gaps
+    else:
+        whole, speeds = result["film_status"] != FilmStatus.BROKEN, result["speed"]
+    whole = whole & (gaps > 0.0)
+    return list(zip(gaps[whole].tolist(), speeds[whole].tolist(), strict=True))
 
 
 @frozen(kw_only=True)
@@ -256,7 +292,7 @@ class ViscousForce(SeparationForce):
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         """See `SeparationForce.prepare`."""
-        return _law(prepared)
+        return viscous_law(prepared)
 
     def equations(self, scene: SeparationScene) -> str:
         """See `SeparationEffect.equations`.
@@ -326,7 +362,8 @@ def _face_law(film: FaceFilm, viscosity: float) -> ForceLaw:
     return ForceLaw(force, rate="proportional", exponent=film.exponent, impulse=impulse)
 
 
-def _law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:
+def viscous_law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:
+    """Viscous force of a scene, without limits of the liquid."""
     rheology, face = prepared.rheology, prepared.face_film
     if rheology is not None and rheology.film is not None:
         return rheology.film.force_law()

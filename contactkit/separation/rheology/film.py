@@ -15,6 +15,7 @@ from attrs import evolve, frozen
 
 from ...lubrication import squeeze_film as newtonian
 from ...lubrication.flow_laws.base import FlowLaw
+from ...lubrication.flow_laws.closed_forms import slip_disc_factor
 from ...lubrication.flow_laws.newtonian import Newtonian
 from ...lubrication.flow_laws.squeeze import SqueezedFilm, squeeze_film
 from ...lubrication.flow_laws.walls import Flats, Paraboloid, Walls
@@ -78,6 +79,12 @@ class RheologicalFilm:
     def is_linear(self) -> bool:
         """Whether the force is proportional to the speed."""
         return isinstance(self.law, Newtonian) and self.law.pressure_law is None
+
+    @property
+    def has_one_variable(self) -> bool:
+        """Whether the force over that at the viscosity at rest follows from the rate of shear."""
+        is_flat = math.isinf(self.shape.sphere_radius)
+        return is_flat and not self.slips and self.law.pressure_law is None
 
     @property
     def slips(self) -> bool:
@@ -153,12 +160,10 @@ class RheologicalFilm:
     def linear_force(self, gap: float, speed: float) -> float:
         """Force [N] at the viscosity at rest, with slip: between flats in closed form."""
         plain = self.newtonian_force(gap, speed)
-        lower, upper = self.law.slip_length
         if not self.slips or plain == 0.0:
             return plain
         if math.isinf(self.shape.sphere_radius):
-            both = lower + upper
-            return plain * gap * (gap + both) / (gap * gap + 4.0 * gap * both + 12.0 * lower * upper)
+            return plain * float(slip_disc_factor(gap, *self.law.slip_length))
         radius = self.shape.radius(gap)
         one = squeeze_film(self._linear, self._walls, gap, speed, radius).force
         return self.shape.menisci * float(one)

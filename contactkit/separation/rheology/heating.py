@@ -1,1 +1,102 @@
-"""Temperature rise of a squeezed film: adiabatic, or with heat that leaves through the walls."""
+"""How far a squeezed film heats itself: by its own work, or as far as the walls let it."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from ...lubrication.flow_laws.heating import adiabatic_rise, conduction_rise
+
+if TYPE_CHECKING:
+    from ...liquids.liquid import Liquid
+    from ...scene.scenes import SeparationScene
+    from ..effects.prepared import PreparedScene
+
+__all__ = ["temperature_rise", "viscosity_slope"]
+
+_STEP = 0.5  # [K] to each side, of the slope of the viscosity
+
+
+def viscosity_slope(liquid: Liquid, temperature: float) -> float | None:
+    """Slope of the logarithm of the viscosity over the temperature [1/K]; None for a constant."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # half a kelvin beyond the range of a law
+        cold, warm = (liquid.at(temperature + step).viscosity for step in (-_STEP, _STEP))
+    return math.log(warm / cold) / (2.0 * _STEP) if warm != cold else None
+
+
+def temperature_rise(
+    prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
+) -> float | None:
+    r"""Bound on the temperature rise of the film along gaps [m] and speeds [m/s], in kelvins.
+
+    Parameters
+    ----------
+    prepared : PreparedScene
+        A scene whose liquid has a heat capacity and a density, or a thermal conductivity.
+    path : sequence of (float, float)
+        Gaps and speeds in the order of the run, while the film spans the gap.
+
+    Returns
+    -------
+    float or None
+        The smaller of two bounds [K]: all work of the film stays in its liquid, and walls of
+        constant temperature take up all heat at once, where the film is hottest. None where the
+        liquid gives the properties for neither.
+
+    Notes
+    -----
+    The middle of the gap is hottest at the rim of a disc, and at :math:`\sqrt{2 R D}` under a
+    sphere. The force of a film that cavitates is taken for its strength times its area at most.
+    """
+    liquid, state = prepared.scene.meniscus.liquid, prepared.liquid
+    density, conductivity = state.given("density"), liquid.thermal_conductivity
+    bounds = []
+    if density is not None and liquid.heat_capacity is not None:
+        capacity = density * liquid.heat_capacity
+        bounds.append(_adiabatic(prepared, path, capacity))
+    if conductivity is not None:
+        bounds.append(max((_conducted(prepared, *one, conductivity) for one in path), default=0.0))
+    return min(bounds, default=None)
+
+
+def _adiabatic(
+    prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]], capacity: float
+) -> float:
+    """Rise [K] of a film that keeps its work, of which the thinnest gap has the least liquid."""
+    from ..effects.viscous import TensionLimit, viscous_film, viscous_law
+
+    film, law = viscous_film(prepared), viscous_law(prepared)
+    limit = prepared.scene.effect(TensionLimit)
+
+    def force(gap: float, speed: float) -> float:
+        found = abs(law.force(gap, speed))
+        if limit is None or speed < 0.0:
+            return found
+        return min(found, film.menisci * math.pi * film.radius(gap) ** 2 * limit.tension)
+
+    work = 0.0
+    for (gap, speed), (after, later) in pairwise(path):
+        work += abs(after - gap) * 0.5 * (force(gap, speed) + force(after, later))
+    volume = film.menisci * min(film.volume_at(gap) for gap, _ in path)
+    return float(adiabatic_rise(work, volume, capacity)) if volume > 0.0 else 0.0
+
+
+def _conducted(
+    prepared: PreparedScene[SeparationScene], gap: float, speed: float, conductivity: float
+) -> float:
+    """Rise [K] in the middle of the gap where most power is dissipated."""
+    from ..effects.film_validity import apparent_viscosity
+    from ..effects.viscous import viscous_film
+
+    film, viscosity = viscous_film(prepared), apparent_viscosity(prepared)(gap, speed)
+    place, height = film.radius(gap), gap
+    if math.isfinite(film.sphere_radius):
+        place = min(place, math.sqrt(2.0 * film.sphere_radius * gap))
+        height = gap + place * place / (2.0 * film.sphere_radius)
+    flux = 0.5 * place * abs(speed)
+    power = 12.0 * viscosity * flux * flux / height**3
+    return float(conduction_rise(power, height, conductivity))

@@ -122,7 +122,14 @@ class PreparedFilm:
             with np.errstate(divide="ignore"):
                 return np.log(np.abs(force / linear))
 
+        def of_shear(gap: Array, speed: Array) -> Array:
+            """The same between flats without slip and pressure: of the rate of shear alone."""
+            if gap.ndim < 2:
+                return logarithm(gap, speed)
+            return np.broadcast_to(logarithm(gap[0], speed[0]), gap.shape)
+
         low, high = self._pieces[piece]
+        function = of_shear if self.film.has_one_variable else logarithm
         ratios = np.geomspace(_SLOWEST * self.fastest, self.fastest, 49)
         if sign < 0.0 and self.film.law.pressure_law is not None:
             # The pole comes first where the film is widest.
@@ -133,7 +140,7 @@ class PreparedFilm:
                 return None
             ratios = ratios[: last + 1]
         ends = float(ratios[0]), float(ratios[-1])
-        return log_table(logarithm, self.unit, (low, high), ends)
+        return log_table(function, self.unit, (low, high), ends)
 
     def unit(self, gap: float) -> float:
         """Speed [m/s] at which a Newtonian film shears by 1 1/s at a wall."""
