@@ -11,5 +11,6 @@ density        Density over pressure: Dowson and Higginson.
 walls          Walls of an axisymmetric film: flats, paraboloid, any profile; rim at a volume.
 squeeze        Pressure and force of a squeezed axisymmetric film of any law.
 closed_forms   Squeezed films in closed form: Scott, Barus, Vinogradova.
+on_grid        Squeezed film of any law on any face, in 2-D.
 heating        Temperature rise of a film by its own shear.
 """

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import field, frozen
 
+from ...numerics.quadrature import gauss_legendre
 from ...units import si
 from ...validators import non_negative, positive
 
@@ -71,6 +72,60 @@ class PressureLaw(abc.ABC):
         1.0
         """
         return np.exp(np.minimum(self.logarithm(pressure)[0], 709.0))
+
+    def reduced(self, pressure: ArrayLike) -> Array:
+        r"""Reduced pressure [Pa], :math:`\int_0^p dp/M`: that of a liquid of constant viscosity.
+
+        Examples
+        --------
+        >>> law = Barus(coefficient=2e-8)
+        >>> round(float(law.reduced(5e7)) / 5e7, 12) == round(1.0 - math.exp(-1.0), 12)
+        True
+        """
+        p = np.asarray(pressure, dtype=float)
+        alpha = self.coefficient
+        if not self.thins_in_tension or alpha == 0.0:
+            below = np.minimum(p, 0.0)
+        else:
+            below = -np.expm1(np.minimum(-alpha * np.minimum(p, 0.0), 700.0)) / alpha
+        return np.asarray(below + self._reduced_above(np.maximum(p, 0.0)))
+
+    def _reduced_above(self, pressure: Array) -> Array:
+        """Reduced pressure [Pa] at pressures above ambient, over the logarithm of 1 + alpha p."""
+        scale = max(self.coefficient, 1e-300)
+        end = np.log1p(scale * pressure)
+        nodes, weights = (np.array(one) for one in gauss_legendre(40))
+        x = np.expm1(end[..., None] * nodes) / scale
+        each = np.exp(end[..., None] * nodes - self._logarithm(x)[0]) / scale
+        return np.asarray(end * (each @ weights))
+
+    def pressure_of(self, reduced: ArrayLike) -> Array:
+        """Pressure [Pa] of a reduced one; inf where no pressure is as high.
+
+        Examples
+        --------
+        >>> law = Roelands(viscosity=0.1, exponent=0.6)
+        >>> round(float(law.pressure_of(law.reduced(2e8))), 3), float(law.pressure_of(1e9))
+        (200000000.0, inf)
+        """
+        given = np.asarray(reduced, dtype=float)
+        alpha = self.coefficient
+        below, above = np.minimum(given, 0.0), np.maximum(given, 0.0)
+        if self.thins_in_tension and alpha > 0.0:
+            below = -np.log1p(-alpha * below) / alpha
+        p = above.copy()
+        # The reduced pressure is concave: Newton's method from below rises to the root.
+        with np.errstate(over="ignore", invalid="ignore"):
+            for _ in range(200):
+                step = (above - self._reduced_above(p)) * np.exp(self._logarithm(p)[0])
+                none = ~(p + step < 600.0 / max(alpha, 1e-300))
+                step = np.where(none, 0.0, step)
+                p = np.where(none, 0.0, p + step)
+                above = np.where(none, 0.0, above)
+                below = np.where(none, np.inf, below)
+                if (np.abs(step) <= 1e-14 * p).all():
+                    break
+        return np.asarray(below + p)
 
 
 @frozen(kw_only=True)
