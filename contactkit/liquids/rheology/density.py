@@ -64,9 +64,7 @@ class DowsonHigginsonDensity(PressureDensity):
 
     kind: ClassVar[str] = "dowson-higginson"
 
-    initial_compressibility: float = field(
-        default=0.6e-9, validator=positive, metadata=si("1/Pa")
-    )
+    initial_compressibility: float = field(default=0.6e-9, validator=positive, metadata=si("1/Pa"))
     stiffening: float = field(default=1.7e-9, validator=non_negative, metadata=si("1/Pa"))
     source: str = ""
 

@@ -596,13 +596,7 @@ class TensionLimit(FilmLimit):
         """See `FilmLimit.cavity_law`."""
         if not self.follows_cavity:
             return None
-        if prepared.rheology is not None and prepared.rheology.film is not None:
-            other = ' or "reynolds"' if prepared.scene.interface.is_flat else ""
-            raise PlanError(
-                'TensionLimit(cavity="mass-conserving") follows the cavity of a Newtonian film that '
-                f'does not slip; take cavity="truncated"{other}, or leave the rheology out with '
-                'ViscousForce(rheology="newtonian")'
-            )
+        _refuse_rheology(prepared, self.cavity)
         if prepared.face_film is not None:
             return self._face_cavity(prepared, prepared.face_film)
         film = viscous_film(prepared)
@@ -619,6 +613,8 @@ class TensionLimit(FilmLimit):
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """See `FilmLimit.prepare`."""
         if prepared.rheology is not None and prepared.rheology.film is not None:
+            if self.cavity == "reynolds":
+                _refuse_rheology(prepared, self.cavity)
             return prepared.rheology.film.limiter()
         film, drop = viscous_film(prepared), self.tension
         n, radius, height = film.menisci, film.radius, film.height
@@ -639,6 +635,19 @@ class TensionLimit(FilmLimit):
             )
 
         return between_flats if math.isinf(film.sphere_radius) else under_sphere
+
+
+def _refuse_rheology(prepared: PreparedScene[SeparationScene], cavity: str) -> None:
+    """Refuse a cavity whose edge is known in a Newtonian film that does not slip alone."""
+    if prepared.rheology is None or prepared.rheology.film is None:
+        return
+    cure = "leave the slip lengths of the meniscus out"
+    if prepared.rheology.computed:
+        cure = 'leave the rheology out with ViscousForce(rheology="newtonian")'
+    raise PlanError(
+        f'TensionLimit(cavity="{cavity}") knows the edge of a cavity in a Newtonian film that does '
+        f'not slip; take cavity="truncated", or {cure}'
+    )
 
 
 @frozen(kw_only=True)

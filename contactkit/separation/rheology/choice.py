@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ from attrs import field, frozen
 
 from ...errors import PlanError
 from ...scene.loading import ImposedForce, ImposedSpeed, ImposedTime
+from ..film import balance_speed
 from .film import RheologicalFilm
 from .prepared_film import PreparedFilm
 
@@ -33,9 +35,9 @@ that size: a film 170 times as wide as high loses 1 % at its rim, and 4 K change
 
 _GAPS = 17  # of the expected motion: a change of the force is known to a tenth of itself
 _TINY = 1e-300
-# Reach of tables beyond the motion that a Newtonian film would let expect under a force: a liquid
-# that thins lets go faster, and what lies beyond is computed directly.
-_NEARER, _FARTHER, _FASTER = 0.3, 1.5, 100.0
+# Reach of tables beyond the motion that is expected under a force; what lies farther is computed
+# directly.
+_NEARER, _FARTHER, _FASTER = 0.3, 1.5, 30.0
 _FASTEST = 1e6  # [1/s], where no motion is expected
 
 
@@ -132,7 +134,12 @@ def _made(
     fastest = max((film.shear_per_speed(h) * abs(v) for h, v in path or ()), default=0.0)
     low, high = loading.smallest_gap or 1e-3 * loading.final_gap, loading.final_gap
     if isinstance(loading, ImposedForce):
-        low, high, fastest = _NEARER * low, _FARTHER * high, _FASTER * (fastest or _FASTEST)
+        low, high = _NEARER * low, _FARTHER * high
+        if loading.force > 0.0:  # a liquid that thins lets go faster
+            for gap in (loading.initial_gap, loading.final_gap):
+                speed = balance_speed(partial(film.force, gap), loading.force)
+                fastest = max(fastest, film.shear_per_speed(gap) * speed)
+        fastest = _FASTER * (fastest or _FASTEST)
     edge = 1.0 + 1e-9
     return PreparedFilm(film, (low / edge, high * edge), fastest * edge)
 
@@ -142,11 +149,15 @@ def _computed(
 ) -> tuple[str, ...]:
     if viscous.rheology == "newtonian" or viscous.takes_printed():
         return ()
+    if viscous.rheology == "all":
+        return given
     return tuple(name for name in given if not changes.get(name, math.inf) < WORTH)
 
 
 def _check_film(
-    prepared: PreparedScene[SeparationScene], computed: tuple[str, ...], changes: Mapping[str, float]
+    prepared: PreparedScene[SeparationScene],
+    computed: tuple[str, ...],
+    changes: Mapping[str, float],
 ) -> None:
     """Refuse films whose flow is not known for such a liquid."""
     scene, words = prepared.scene, dict(PARTS)

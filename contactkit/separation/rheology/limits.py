@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["truncated_force"]
 
+
 def truncated_force(radius: Array, gradient: Array, rim_radius: float, strength: float) -> float:
     r"""Force [N] of an opening film whose pressure is cut off at a tension (Gumbel).
 

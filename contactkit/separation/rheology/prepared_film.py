@@ -83,7 +83,9 @@ class PreparedFilm:
         from scipy.interpolate import make_interp_spline
 
         places = _places(gaps)
-        ratios = [self.film.linear_force(h, 1.0) / self.film.newtonian_force(h, 1.0) for h in places]
+        ratios = [
+            self.film.linear_force(h, 1.0) / self.film.newtonian_force(h, 1.0) for h in places
+        ]
         return make_interp_spline(np.log(places), np.log(ratios), k=5)
 
     def force_ratio(self, gap: float, speed: float) -> float:
@@ -133,7 +135,9 @@ class PreparedFilm:
         ratios = np.geomspace(_SLOWEST * self.fastest, self.fastest, 49)
         if sign < 0.0 and self.film.law.pressure_law is not None:
             # The pole comes first where the film is widest.
-            worst = np.array([logarithm(np.full(49, h), ratios * self.unit(h)) for h in (low, high)])
+            worst = np.array(
+                [logarithm(np.full(49, h), ratios * self.unit(h)) for h in (low, high)]
+            )
             fine = (worst < _STIFFEST).all(axis=0)
             last = int(np.argmin(fine)) - 1 if not fine.all() else fine.size - 1
             if last < 12:
@@ -167,7 +171,9 @@ class PreparedFilm:
         def logarithm(gap: Array, speed: Array) -> Array:
             return np.log(self.film.bounded_forces(gap, speed) / self.film.forces(gap, speed)[0])
 
-        return log_table(logarithm, onset, self._pieces[piece], (1.0, max(fastest, 10.0)), fades=False)
+        return log_table(
+            logarithm, onset, self._pieces[piece], (1.0, max(fastest, 10.0)), fades=False
+        )
 
     def _inception(self, gaps: tuple[float, float]) -> Callable[[float], float]:
         """Speed [m/s] at which the full film cavitates, over the gap [m]."""

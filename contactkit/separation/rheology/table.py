@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 __all__ = ["LogTable", "log_table"]
 
 _DEGREE = 5
-_PER_DECADE = 5
-"""Points of a table in a decade of gap or speed: quintics through them leave 1e-7 of Eyring's and
-Carreau's laws under a sphere, and 2e-5 at the kink of a power law with a plateau."""
-_ONSET = 1e-5  # of the logarithm, below which it goes on as a power of the speed
+_GAPS, _SPEEDS = 5, 8
+"""Points of a table in a decade of gap and of speed: quintics through them leave 2e-5 of Carreau's
+law under a sphere and of Barus' law, 1e-5 of a sharp bend, 5e-4 at the kink of a power law."""
+_ONSET = 1e-4  # of the logarithm, below which it goes on as a power of the speed
 
 
 @frozen(eq=False)
@@ -80,13 +80,13 @@ def log_table(
     """
     from scipy.interpolate import RectBivariateSpline
 
-    rows, least = _points(gaps), ratios[0]
+    rows, least = _points(gaps, _GAPS), ratios[0]
     if fades:
-        middle, trial = float(rows[rows.size // 2]), _points(ratios)
+        middle, trial = float(rows[rows.size // 2]), _points(ratios, _SPEEDS)
         seen = np.abs(function(np.full_like(trial, middle), trial * unit(middle)))
         matters = int(np.argmax(seen > _ONSET)) if (seen > _ONSET).any() else trial.size
-        least = float(trial[max(min(matters - _PER_DECADE, trial.size - _DEGREE - 1), 0)])
-    columns = _points((least, ratios[1]))
+        least = float(trial[max(min(matters - _SPEEDS, trial.size - _DEGREE - 1), 0)])
+    columns = _points((least, ratios[1]), _SPEEDS)
     units = np.array([unit(gap) for gap in rows.tolist()])
     h = np.repeat(rows[:, None], columns.size, axis=1)
     values = function(h, units[:, None] * columns)
@@ -95,8 +95,8 @@ def log_table(
     return LogTable(unit, reach, spline)
 
 
-def _points(ends: tuple[float, float]) -> Array:
+def _points(ends: tuple[float, float], per_decade: int) -> Array:
     """Points in equal ratios between two numbers, enough for a spline."""
     decades = math.log10(ends[1] / ends[0])
-    count = max(_DEGREE + 1, math.ceil(_PER_DECADE * decades) + 1)
+    count = max(_DEGREE + 1, math.ceil(per_decade * decades) + 1)
     return np.geomspace(ends[0], ends[1], count)
