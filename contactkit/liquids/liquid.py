@@ -242,9 +242,9 @@ class Liquid(Described):
 
     def __attrs_post_init__(self) -> None:
         if self.pressure_density is not None and self.bulk_modulus is not None:
-            attribute, kind = fields(Liquid).pressure_density, self.pressure_density.kind
-            expected = "be left out where bulk_modulus is given"
-            raise refuse(self, attribute, kind, expected, "keep one of the two")
+            expected, kind = "be left out where bulk_modulus is given", self.pressure_density.kind
+            where = fields(Liquid).pressure_density
+            raise refuse(self, where, kind, expected, "keep one of the two")
         if self.kinematic_viscosity is None:
             return
         attribute, value = fields(Liquid).kinematic_viscosity, _shown(self.kinematic_viscosity)

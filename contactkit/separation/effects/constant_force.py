@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import TYPE_CHECKING
 
@@ -92,5 +93,5 @@ def _time_of_law(
     low, high = math.log(loading.initial_gap), math.log(loading.final_gap)
     kinks = [math.log(kink) for kink in viscous.kinks]
     marks = [low, *(kink for kink in kinks if low < kink < high), high]
-    pieces = zip(marks[:-1], marks[1:], strict=True)
+    pieces = itertools.pairwise(marks)
     return sum(quad(integrand, *one, epsabs=0.0, epsrel=1e-11, limit=500)[0] for one in pieces)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar, cast
 
 from attrs import evolve, frozen
 
@@ -96,7 +96,7 @@ class PreparedScene(Generic[S_co]):
             return None
         from ..rheology.choice import film_rheology
 
-        return film_rheology(self)
+        return film_rheology(cast("PreparedScene[SeparationScene]", self))
 
     @property
     def wetting(self) -> float:

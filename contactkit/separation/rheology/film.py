@@ -129,7 +129,7 @@ class RheologicalFilm:
         for place in zip(*np.nonzero(over), strict=True):
             one = (film.radius[place], film.gradient[place])
             forces[place] = truncated_force(*one, float(radii[place]), self.strength)
-        return self.shape.menisci * forces
+        return np.asarray(self.shape.menisci * forces)
 
     def peak_pressures(self, gap: Array, speed: Array) -> Array:
         """Largest pressure differences from ambient [Pa] of full films."""

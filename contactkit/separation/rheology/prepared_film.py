@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -54,7 +55,7 @@ class PreparedFilm:
         shape = self.film.shape
         low, high = self.gaps[0], min(self.gaps[1], shape.level)
         marks = [low, *(one for one in (shape.full_gap,) if low < one < high), high]
-        return list(zip(marks[:-1], marks[1:], strict=True))
+        return list(itertools.pairwise(marks))
 
     def _piece(self, gap: float) -> int | None:
         """Number of the piece a gap lies in; None for none."""

@@ -46,7 +46,7 @@ class LogTable:
         if ratio >= least or value == 0.0:
             return value
         power = float(self._spline(y, x, dy=1, grid=False)) / value
-        return value * (ratio / least) ** max(power, 0.0)
+        return float(value * (ratio / least) ** max(power, 0.0))
 
 
 def log_table(
