@@ -155,7 +155,7 @@ def positive_root(residual: Callable[[Array], tuple[Array, Array]], start: Array
             low, high = np.where(value > 0.0, x, low), np.where(value < 0.0, x, high)
             step = np.clip(value / slope, -3.0, 3.0)  # at most a factor of 20 a step
             step = np.where(np.isfinite(step), step, -1.0)  # too large a stress overflows
-            settled = np.abs(step) <= 1e-9  # whose square is round-off
+            settled = np.abs(step) <= 1e-8  # whose square is round-off
             moved = x * np.exp(step)
             middle = np.sqrt(np.maximum(low, 1e-300)) * np.sqrt(np.minimum(high, 1e300))
             x = np.where(settled | ((moved > low) & (moved < high)), moved, middle)
