@@ -94,7 +94,7 @@ def test_a_dome_of_a_carreau_liquid_with_slip_and_roelands(closes):
     "law", [PowerLaw(consistency=0.5, exponent=0.4), Eyring(viscosity=0.1, eyring_stress=2e4)]
 )
 def test_the_flux_of_a_ring_depends_on_the_law(law):
-    """A vented ring: the radius without flux is where both ways out need one pressure."""
+    """A vented ring: from the radius without flux inwards and outwards the pressure falls alike."""
     hole = 0.3 * R
 
     radius = np.linspace(hole, R, 4001)
@@ -166,7 +166,7 @@ def test_flow_between_two_reservoirs_follows_the_law():
     assert film.force == pytest.approx(-5e4 * 2.0 * 2.0 * face.pixel_size[0], rel=1e-9)
 
 
-def test_a_tension_that_the_liquid_bears_is_the_floor():
+def test_the_strength_of_the_liquid_is_the_floor_of_its_pressure():
     law = PowerLaw(consistency=0.1, exponent=0.5)
     free, bound = (solve_on_grid(DISC, law, GAP, SPEED, drop=drop) for drop in (math.inf, 1e3))
     assert -float(free.pressure.min()) > 5e3
