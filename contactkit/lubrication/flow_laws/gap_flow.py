@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -11,8 +11,6 @@ from ...errors import ConvergenceError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from .base import FlowLaw
 
     Array = NDArray[np.floating[Any]]
 
@@ -36,6 +34,16 @@ class WallFlow(NamedTuple):
     """d ln(stress)/d ln(parameter) [-]."""
     rate_slope: Array
     """d ln(rate)/d ln(parameter) [-]."""
+
+
+class HalfFilms(Protocol):
+    """Half films of a law, over its parameter; see `FlowLaw`."""
+
+    def wall_flow(self, parameter: Array) -> WallFlow:
+        """Flow of a half film."""
+
+    def of_stress(self, stress: Array) -> Array:
+        """Parameter of a wall stress [Pa]."""
 
 
 class GapFlow(NamedTuple):
@@ -73,7 +81,7 @@ def alike(flow: WallFlow, slip_ratio: Array) -> GapFlow:
     )
 
 
-def unlike(law: FlowLaw, flow: WallFlow, less: Array, more: Array) -> GapFlow:
+def unlike(law: HalfFilms, flow: WallFlow, less: Array, more: Array) -> GapFlow:
     r"""Flow between walls of two slip lengths over gap, at the flow of the half with less slip.
 
     The plane without stress lies where both halves have one velocity, with
@@ -155,7 +163,7 @@ def positive_root(residual: Callable[[Array], tuple[Array, Array]], start: Array
             low, high = np.where(value > 0.0, x, low), np.where(value < 0.0, x, high)
             step = np.clip(value / slope, -3.0, 3.0)  # at most a factor of 20 a step
             step = np.where(np.isfinite(step), step, -1.0)  # too large a stress overflows
-            settled = np.abs(step) <= 1e-9  # whose square is round-off
+            settled = np.abs(step) <= 1e-8  # whose square is round-off
             moved = x * np.exp(step)
             middle = np.sqrt(np.maximum(low, 1e-300)) * np.sqrt(np.minimum(high, 1e300))
             x = np.where(settled | ((moved > low) & (moved < high)), moved, middle)

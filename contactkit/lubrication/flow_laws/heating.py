@@ -5,8 +5,8 @@ The film dissipates F v. Two bounds hold together, so that the smaller one does:
 - *adiabatic*: all heat stays in the liquid, :math:`W/(\rho c V)` over a pull of work W;
 - *conduction*: walls at constant temperature take up what the liquid gives off at once.
 
-Which of them is near tells the Fourier number :math:`\kappa t/h^2`. Arguments are floats or arrays
-and are not checked.
+The Fourier number :math:`\kappa t/h^2` decides which of them is near. Arguments are floats or
+arrays and are not checked.
 
 =======  ==============================================  =======
 symbol   quantity                                        unit

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from ..reynolds.face import Face
     from ..reynolds.film import GridFilmState
 
-    Array = NDArray[np.float64]
+    Array = NDArray[np.floating[Any]]
 
 __all__ = ["FilmOnGrid", "solve_on_grid"]
 
@@ -136,7 +136,8 @@ def solve_on_grid(
         change, before = abs(force - before) / max(abs(force), 1e-300), force
         if missed <= rtol:
             return _result(law, state, height, iteration, change)
-        (after,) = mixing.next((logs,), (found,), (1.0,))
+        blocks = (np.asarray(one, dtype=np.float64) for one in (logs, found))
+        (after,) = mixing.next((next(blocks),), (next(blocks),), (1.0,))
         logs = logs + np.clip(after - logs, -_LARGEST_STEP, _LARGEST_STEP)
     raise ConvergenceError(f"the film did not settle: the force still changes by {change:.2g}")
 

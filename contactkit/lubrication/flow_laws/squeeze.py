@@ -22,7 +22,7 @@ from ...errors import ConvergenceError, DescriptionError
 from ...numerics.quadrature import gauss_legendre
 from .base import FlowLaw, plain
 from .gap_flow import GapFlow
-from .walls import Walls
+from .walls import Flats, Walls
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -39,7 +39,7 @@ NODES = 10
 # Within the core the force falls as exp(3 x): panels may grow, and exp(-34) is left out.
 _INNER = (2.4, 2.4, 1.6, 1.6, 0.8, 0.8, 0.8, 0.8)
 _FAR = 25.0  # logarithms beyond the core, where a film without a rim ends
-_TOGETHER = 64  # pairs solved in one system, for memory
+_TOGETHER = 256  # pairs solved at once, for memory
 _MOST = 80  # iterations of Newton's method
 _MOST_HALVINGS = 50
 _OVERFLOW = 600.0  # of the logarithm of the viscosity ratio
@@ -150,7 +150,7 @@ def squeeze_film(
     given = (gap, speed, rim_radius, rim_pressure)
     arrays = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in given))
     h, v, rim, outside = (one.ravel() for one in arrays)
-    _check(law, h, rim)
+    _check(law, walls, h, rim)
     rim = np.where(np.isfinite(rim), rim, walls.core(h, rim) * math.exp(_FAR))
     parts = []
     for start in range(0, max(h.size, 1), _TOGETHER):
@@ -163,13 +163,14 @@ def squeeze_film(
     return SqueezedFilm(plain(shaped[0]), plain(shaped[1]), *shaped[2:])
 
 
-def _check(law: FlowLaw, gap: Array, rim: Array) -> None:
+def _check(law: FlowLaw, walls: Walls, gap: Array, rim: Array) -> None:
     """Refuse what has no finite force."""
     if not ((gap > 0.0) & np.isfinite(gap)).all():
         wrong = float(gap[~((gap > 0.0) & np.isfinite(gap))][0])
         raise DescriptionError("gap", wrong, "be positive and finite", unit="m")
-    if np.isinf(rim).any() and not law.is_newtonian_at_rest:
+    if np.isinf(rim).any() and (isinstance(walls, Flats) or not law.is_newtonian_at_rest):
         cure = "give the radius at which the film ends: a power law goes on flowing far outside"
+        cure = "flats have no force without a rim" if isinstance(walls, Flats) else cure
         raise DescriptionError("rim_radius", math.inf, "be finite", unit="m", hint=cure)
 
 
@@ -289,15 +290,13 @@ def _newton(
     """Newton's method for the pressure at the nodes; inf where there is none."""
     rim, inward, step, matrix = rule
     assert law.pressure_law is not None
-    one = np.eye(matrix.shape[0])
     blocked = np.zeros(pressure.shape[0], dtype=bool)
     for _ in range(_MOST):
         flow = law.flow(flux, height, pressure)
         slope = 2.0 * flow.drive / height * step
         residual = rim + inward * (slope @ matrix.T) - pressure
         stiff = slope * flow.exponent * law.pressure_law.logarithm(pressure)[1]
-        system = one - inward[:, :, None] * matrix * stiff[:, None, :]
-        change = np.linalg.solve(system, residual[:, :, None])[:, :, 0]
+        change = _volterra(residual, inward * stiff, matrix)
         pressure = pressure + change
         size = np.abs(pressure).max(axis=1)
         blocked |= ~np.isfinite(size)
@@ -310,3 +309,24 @@ def _newton(
         raise ConvergenceError("the pressure of the film did not settle", pressure)
     flow = law.flow(flux, height, pressure)
     return np.where(blocked[:, None], math.inf, pressure), flow
+
+
+def _volterra(right: Array, kernel: Array, matrix: Array) -> Array:
+    """Solve x = right + matrix (kernel x) for each pair; panels are blocks of a triangular matrix.
+
+    What lies between a panel and the rim enters by one number, its integral: all blocks are solved
+    at once, for the right-hand side and for that number, which then is a sum from the rim inwards.
+    """
+    pairs, panels = right.shape[0], right.shape[1] // _NODES
+    block, weights = matrix[-_NODES:, -_NODES:], _rule(1)[1]
+    k = kernel.reshape(pairs, panels, _NODES)
+    system = np.eye(_NODES) - block * k[:, :, None, :]
+    both = np.ones((pairs, panels, _NODES, 2))
+    both[..., 0] = right.reshape(k.shape)
+    found = np.linalg.solve(system, both)
+    gained = np.einsum("mpn,mpnc->mpc", k * weights, found)
+    outside = np.zeros((pairs, panels))
+    for panel in range(panels - 1, 0, -1):
+        beyond = outside[:, panel]
+        outside[:, panel - 1] = beyond + gained[:, panel, 0] + beyond * gained[:, panel, 1]
+    return np.asarray(found[..., 0] + outside[:, :, None] * found[..., 1]).reshape(right.shape)
