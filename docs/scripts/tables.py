@@ -56,6 +56,7 @@ from contactkit.kinds import (
     SEPARATION_LOADINGS,
     SLIDING_EFFECTS,
     SLIDING_LOADINGS,
+    RHEOLOGY_LAWS,
     TEMPERATURE_LAWS,
 )
 from contactkit.models.end_stop.faces import StopFaces
@@ -240,6 +241,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "shapes": lambda: named((("flat", ck.Flat), ("sphere", ck.Sphere)), "shape"),
     "meniscus": lambda: keys(ck.Meniscus),
     "liquid": lambda: keys(ck.Liquid),
+    "rheology laws": lambda: named([(law.kind, law) for law in RHEOLOGY_LAWS], "law"),
     "laws": lambda: named([(law.kind, law) for law in TEMPERATURE_LAWS], "law"),
     "separation loadings": lambda: named(((k.kind, k) for k in SEPARATION_LOADINGS), "kind"),
     "contact loadings": lambda: named(((k.kind, k) for k in CONTACT_LOADINGS), "kind"),

@@ -317,11 +317,11 @@ def _volterra(right: Array, kernel: Array, matrix: Array) -> Array:
     What lies between a panel and the rim enters by one number, its integral: all blocks are solved
     at once, for the right-hand side and for that number, which then is a sum from the rim inwards.
     """
-    pairs, panels = right.shape[0], right.shape[1] // _NODES
-    block, weights = matrix[-_NODES:, -_NODES:], _rule(1)[1]
-    k = kernel.reshape(pairs, panels, _NODES)
-    system = np.eye(_NODES) - block * k[:, :, None, :]
-    both = np.ones((pairs, panels, _NODES, 2))
+    pairs, panels = right.shape[0], right.shape[1] // NODES
+    block, weights = matrix[-NODES:, -NODES:], _rule(1)[1]
+    k = kernel.reshape(pairs, panels, NODES)
+    system = np.eye(NODES) - block * k[:, :, None, :]
+    both = np.ones((pairs, panels, NODES, 2))
     both[..., 0] = right.reshape(k.shape)
     found = np.linalg.solve(system, both)
     gained = np.einsum("mpn,mpnc->mpc", k * weights, found)
