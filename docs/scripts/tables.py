@@ -52,11 +52,11 @@ from contactkit.kinds import (
     CONTACT_LOADINGS,
     HARDNESS_RULES,
     MENISCUS_PROFILES,
+    RHEOLOGY_LAWS,
     SEPARATION_EFFECTS,
     SEPARATION_LOADINGS,
     SLIDING_EFFECTS,
     SLIDING_LOADINGS,
-    RHEOLOGY_LAWS,
     TEMPERATURE_LAWS,
 )
 from contactkit.models.end_stop.faces import StopFaces

@@ -133,7 +133,7 @@ class RheologicalFilm:
 
     def peak_pressures(self, gap: Array, speed: Array) -> Array:
         """Largest pressure differences from ambient [Pa] of full films."""
-        return np.abs(np.asarray(self._squeezed(gap, speed).centre_pressure))
+        return np.asarray(np.abs(self._squeezed(gap, speed).centre_pressure))
 
     def force(self, gap: float, speed: float) -> float:
         """Force of all films [N]; -inf where no pressure closes the gap so fast."""
