@@ -16,6 +16,7 @@ import numpy as np
 from attrs import field, frozen
 
 from ...errors import PlanError
+from ...lubrication.flow_laws.newtonian import Newtonian
 from ...scene.loading import ImposedForce, ImposedSpeed, ImposedTime
 from ..film import balance_speed
 from .film import RheologicalFilm
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene
     from ..effects.prepared import PreparedScene
     from ..effects.viscous import ViscousForce
+    from .face import SlippingFace
 
 __all__ = ["PARTS", "WORTH", "FilmRheology", "Part", "film_rheology", "force_change"]
 
@@ -38,6 +40,7 @@ _TINY = 1e-300
 # Reach of tables beyond the motion that is expected under a force; what lies farther is computed
 # directly.
 _NEARER, _FARTHER, _FASTER = 0.3, 1.5, 30.0
+_EDGE = 1.0 + 1e-9  # rounding of the ends of a motion
 _FASTEST = 1e6  # [1/s], where no motion is expected
 
 
@@ -66,14 +69,14 @@ class FilmRheology:
         Parts that it does not.
     changes : mapping
         What each part changes the force by, alone, on the expected motion [-].
-    film : PreparedFilm, optional
+    film : PreparedFilm or SlippingFace, optional
         The film with what is computed. None: it is Newtonian and does not slip.
     """
 
     computed: tuple[str, ...]
     left_out: tuple[str, ...]
     changes: Mapping[str, float] = field(factory=dict)
-    film: PreparedFilm | None = None
+    film: PreparedFilm | SlippingFace | None = None
 
     @property
     def is_linear(self) -> bool:
@@ -104,8 +107,8 @@ def film_rheology(prepared: PreparedScene[SeparationScene]) -> FilmRheology | No
     Raises
     ------
     PlanError
-        If the film is one that no flow law is known for: on a face that is no disc, or that of
-        printed equations.
+        If the film is one that it is not known for: between rough faces, and for a viscosity over
+        pressure or shear on a face that is no disc.
     """
     from ..effects.viscous import ViscousForce
 
@@ -124,7 +127,20 @@ def film_rheology(prepared: PreparedScene[SeparationScene]) -> FilmRheology | No
         return FilmRheology((), left, changes)
     _check_film(prepared, computed, changes)
     film = RheologicalFilm.of(prepared, computed)
+    if prepared.face_film is not None and isinstance(film.law, Newtonian):
+        from .face import SlippingFace
+
+        gaps = _reach(scene.loading)
+        return FilmRheology((), left, changes, SlippingFace(prepared.face_film, film.law, gaps))
     return FilmRheology(computed, left, changes, _made(scene.loading, film, path))
+
+
+def _reach(loading: SeparationLoading) -> tuple[float, float]:
+    """Gaps [m] that the tables of a film hold: those of the motion, and more if not imposed."""
+    low, high = loading.smallest_gap or 1e-3 * loading.final_gap, loading.final_gap
+    if isinstance(loading, ImposedForce):
+        low, high = _NEARER * low, _FARTHER * high
+    return low / _EDGE, high * _EDGE
 
 
 def _made(
@@ -132,16 +148,13 @@ def _made(
 ) -> PreparedFilm:
     """Film with tables over the motion that is expected, and over more where it is not imposed."""
     fastest = max((film.shear_per_speed(h) * abs(v) for h, v in path or ()), default=0.0)
-    low, high = loading.smallest_gap or 1e-3 * loading.final_gap, loading.final_gap
     if isinstance(loading, ImposedForce):
-        low, high = _NEARER * low, _FARTHER * high
         if loading.force > 0.0:  # a liquid that thins lets go faster
             for gap in (loading.initial_gap, loading.final_gap):
                 speed = balance_speed(partial(film.force, gap), loading.force)
                 fastest = max(fastest, film.shear_per_speed(gap) * speed)
         fastest = _FASTER * (fastest or _FASTEST)
-    edge = 1.0 + 1e-9
-    return PreparedFilm(film, (low / edge, high * edge), fastest * edge)
+    return PreparedFilm(film, _reach(loading), fastest * _EDGE)
 
 
 def _computed(
@@ -160,6 +173,8 @@ def _check_film(
     changes: Mapping[str, float],
 ) -> None:
     """Refuse films whose flow is not known for such a liquid."""
+    from ..face.shape import on_face
+
     scene, words = prepared.scene, dict(PARTS)
     what = " and ".join([words[name] for name in computed] or ["slip at the walls"])
     sizes = ", ".join(f"{_per_cent(changes[name])}" for name in computed if name in changes)
@@ -169,12 +184,16 @@ def _check_film(
         if computed
         else "leave the slip lengths of the meniscus out"
     )
-    from ..face.shape import on_face
-
-    if on_face(scene):
+    if computed and on_face(scene):
         raise PlanError(
-            f"ViscousForce knows {what}{size} between discs and under a sphere, not in a film on "
-            f"a face that is no disc or with a cavity that is followed under a sphere; {cure}"
+            f"ViscousForce knows {what}{size} between discs and under a sphere, not on a face that "
+            f"is no disc or where a cavity is followed; {cure}, or solve an instant by "
+            "contactkit.lubrication.flow_laws.on_grid.solve_on_grid"
+        )
+    if any(face.roughness is not None for face in scene.interface.faces):
+        raise PlanError(
+            f"ViscousForce knows {what}{size} between smooth faces: flow factors are those of a "
+            f"Newtonian film that does not slip; give the roughness as a relief, or {cure}"
         )
 
 

@@ -81,6 +81,11 @@ class RheologicalFilm:
         return isinstance(self.law, Newtonian) and self.law.pressure_law is None
 
     @property
+    def has_closed_slip(self) -> bool:
+        """Whether the force of a Newtonian liquid that slips is known in closed form."""
+        return math.isinf(self.shape.sphere_radius)
+
+    @property
     def has_one_variable(self) -> bool:
         """Whether the force over that at the viscosity at rest follows from the rate of shear."""
         is_flat = math.isinf(self.shape.sphere_radius)

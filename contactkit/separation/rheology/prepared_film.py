@@ -12,7 +12,7 @@ from attrs import field, frozen
 
 from ...errors import InfeasibleError
 from ..effects.force_law import ForceLaw
-from .table import LogTable, log_table
+from .table import LogTable, log_table, places
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,7 +27,6 @@ __all__ = ["PreparedFilm"]
 _SLOWEST = 1e-8  # rates of shear over the fastest, from which a table may begin
 _STIFFEST = 2.0  # logarithm of a closing force over the linear one: beyond is its pole
 _ITERATIONS = 12
-_PER_DECADE = 10  # gaps of a table of one variable: quintics leave 1e-9 of Vinogradova's function
 
 
 @frozen(eq=False)
@@ -74,7 +73,7 @@ class PreparedFilm:
     def linear_force(self, gap: float, speed: float) -> float:
         """Force [N] at the viscosity at rest, with slip."""
         piece, film = self._piece(gap), self.film
-        if piece is None or math.isinf(film.shape.sphere_radius) or not film.slips:
+        if piece is None or film.has_closed_slip or not film.slips:
             return film.linear_force(gap, speed)
         ratio = self._made("slip", piece, lambda: self._slip_table(self._pieces[piece]))
         return film.newtonian_force(gap, speed) * math.exp(float(ratio(math.log(gap))))
@@ -83,11 +82,9 @@ class PreparedFilm:
         """Logarithm of what slip leaves of the force, over that of the gap."""
         from scipy.interpolate import make_interp_spline
 
-        places = _places(gaps)
-        ratios = [
-            self.film.linear_force(h, 1.0) / self.film.newtonian_force(h, 1.0) for h in places
-        ]
-        return make_interp_spline(np.log(places), np.log(ratios), k=5)
+        rows = places(gaps)
+        ratios = [self.film.linear_force(h, 1.0) / self.film.newtonian_force(h, 1.0) for h in rows]
+        return make_interp_spline(np.log(rows), np.log(ratios), k=5)
 
     def force_ratio(self, gap: float, speed: float) -> float:
         """Force over that without rheology and slip [-]; 1 at rest."""
@@ -180,15 +177,15 @@ class PreparedFilm:
         """Speed [m/s] at which the full film cavitates, over the gap [m]."""
         from scipy.interpolate import make_interp_spline
 
-        places = _places(gaps)
+        rows = places(gaps)
         strength, film = self.film.strength, self.film
-        speed = np.array([self.unit(h) for h in places.tolist()])
-        speed = speed * strength / film.peak_pressures(places, speed)
+        speed = np.array([self.unit(h) for h in rows.tolist()])
+        speed = speed * strength / film.peak_pressures(rows, speed)
         for _ in range(_ITERATIONS):  # Newton's method in logarithms
-            here, there = (film.peak_pressures(places, speed * one) for one in (1.0, 1.001))
+            here, there = (film.peak_pressures(rows, speed * one) for one in (1.0, 1.001))
             power = np.log(there / here) / math.log(1.001)
             speed = speed * np.exp(np.clip(np.log(strength / here) / power, -10.0, 10.0))
-        spline = make_interp_spline(np.log(places), np.log(speed), k=5)
+        spline = make_interp_spline(np.log(rows), np.log(speed), k=5)
         return lambda gap: math.exp(float(spline(math.log(gap))))
 
     def limiter(self) -> Limiter:
@@ -217,9 +214,3 @@ class PreparedFilm:
                 "grows with pressure without bound, and no pressure drives the liquid out; close "
                 "more slowly, or take RoelandsViscosity, which grows less"
             )
-
-
-def _places(gaps: tuple[float, float]) -> Array:
-    """Gaps [m] of a table of one variable."""
-    count = max(8, math.ceil(_PER_DECADE * math.log10(gaps[1] / gaps[0])) + 1)
-    return np.geomspace(*gaps, count)

@@ -14,12 +14,13 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["LogTable", "log_table"]
+__all__ = ["LogTable", "log_table", "places"]
 
 _DEGREE = 5
 _GAPS, _SPEEDS = 5, 8
 """Points of a table in a decade of gap and of speed: quintics through them leave 2e-5 of Carreau's
 law under a sphere and of Barus' law, 1e-5 of a sharp bend, 5e-4 at the kink of a power law."""
+_ALONE = 10  # points in a decade of a table over the gap alone
 _ONSET = 1e-4  # of the logarithm, below which it goes on as a power of the speed
 
 
@@ -100,3 +101,9 @@ def _points(ends: tuple[float, float], per_decade: int) -> Array:
     decades = math.log10(ends[1] / ends[0])
     count = max(_DEGREE + 1, math.ceil(per_decade * decades) + 1)
     return np.geomspace(ends[0], ends[1], count)
+
+
+def places(gaps: tuple[float, float]) -> Array:
+    """Gaps [m] of a table of one variable: quintics leave 1e-9 of Vinogradova's function."""
+    count = max(_DEGREE + 3, math.ceil(_ALONE * math.log10(gaps[1] / gaps[0])) + 1)
+    return np.geomspace(*gaps, count)

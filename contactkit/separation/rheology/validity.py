@@ -35,7 +35,7 @@ def rheology_numbers(
     found: list[ValidityNumber] = []
     if rheology is not None:
         found += _left_out(prepared, rheology, points)
-        if rheology.film is not None:
+        if isinstance(rheology.film, PreparedFilm):
             found += _of_laws(prepared, rheology.film, points)
             found += _of_table(prepared, rheology.film, points)
     return (*found, *_heating(prepared, points))

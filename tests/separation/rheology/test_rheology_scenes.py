@@ -278,6 +278,43 @@ def test_what_is_not_known_is_refused_by_name(call, parts):
     refuses(call, *parts, error=ck.PlanError)
 
 
+def on_face(face, **given):
+    """A flooded film between a face and a flat."""
+    meniscus = {key: given.pop(key) for key in list(given) if key.startswith("slip")}
+    oil = ck.Liquid(name="oil", viscosity=ETA, **given)
+    return ck.SeparationScene(
+        interface=ck.Interface(upper=face, meniscus=ck.Meniscus(liquid=oil, **meniscus)),
+        loading=ck.ImposedSpeed(speed=1e-3, **GAPS),
+        effects=(ck.ViscousForce(),),
+    )
+
+
+def test_a_face_that_is_no_disc_knows_slip_alone():
+    plan, plain = ck.plan(on_face(RING, slip_length_upper=5e-7)), ck.plan(on_face(RING))
+    ratio = (2e-6 + 5e-7) / (2e-6 + 2e-6)
+    assert plan.force(2e-6, 1e-3) == pytest.approx(ratio * plain.force(2e-6, 1e-3), rel=1e-12)
+    refuses(
+        lambda: ck.plan(on_face(RING, pressure_viscosity=BARUS)),
+        "ViscousForce knows viscosity over pressure (it changes the force by",
+        "not on a face that is no disc",
+        error=ck.PlanError,
+    )
+
+
+@pytest.mark.slow
+def test_slip_on_a_crown_is_that_of_a_sphere_to_its_rim():
+    crown, slip = ck.Flat(radius=RIM, crown_radius=1e-2), {"slip_length_lower": 1e-6}
+    ratios = [
+        ck.plan(slips).force(2e-6, 1e-3) / ck.plan(plain).force(2e-6, 1e-3)
+        for slips, plain in (
+            (on_face(crown, **slip), on_face(crown)),
+            (film_scene(body="sphere", meniscus=slip), film_scene(body="sphere")),
+        )
+    ]
+    assert ratios[0] == pytest.approx(ratios[1], rel=2e-3)
+    assert ratios[1] < 0.75
+
+
 def test_bodies_that_deform_or_slide_refuse_it():
     steel = ck.Material(name="steel", young_modulus=210e9, poisson_ratio=0.3)
     oil = ck.Liquid(name="oil", viscosity=0.1, shear_viscosity=EYRING)
