@@ -2,7 +2,7 @@
 
 choice         What a film computes of the rheology of its liquid, by what each part changes.
 film           Force and pressure of such a film, between discs and under a sphere.
-face           A film that slips on a face of any shape.
+face           A film that slips on an even face of any planform.
 limits         The same where its pressure is truncated.
 table          Table of a force over the logarithms of gap and speed.
 prepared_film  The film as tables, for a motion.

@@ -107,8 +107,8 @@ def film_rheology(prepared: PreparedScene[SeparationScene]) -> FilmRheology | No
     Raises
     ------
     PlanError
-        If the film is one that it is not known for: between rough faces, and for a viscosity over
-        pressure or shear on a face that is no disc.
+        If the film is one that it is not known for: between rough or uneven faces, and for a
+        viscosity over pressure or shear on a face that is no disc.
     """
     from ..effects.viscous import ViscousForce
 
@@ -130,8 +130,7 @@ def film_rheology(prepared: PreparedScene[SeparationScene]) -> FilmRheology | No
     if prepared.face_film is not None and isinstance(film.law, Newtonian):
         from .face import SlippingFace
 
-        gaps = _reach(scene.loading)
-        return FilmRheology((), left, changes, SlippingFace(prepared.face_film, film.law, gaps))
+        return FilmRheology((), left, changes, SlippingFace(prepared.face_film, film.law))
     return FilmRheology(computed, left, changes, _made(scene.loading, film, path))
 
 
@@ -173,7 +172,7 @@ def _check_film(
     changes: Mapping[str, float],
 ) -> None:
     """Refuse films whose flow is not known for such a liquid."""
-    from ..face.shape import on_face
+    from ..face.shape import on_face, shape_of
 
     scene, words = prepared.scene, dict(PARTS)
     what = " and ".join([words[name] for name in computed] or ["slip at the walls"])
@@ -190,11 +189,16 @@ def _check_film(
             f"is no disc or where a cavity is followed; {cure}, or solve an instant by "
             "contactkit.lubrication.flow_laws.on_grid.solve_on_grid"
         )
-    if any(face.roughness is not None for face in scene.interface.faces):
+    if (on_face(scene) and not shape_of(scene.interface).is_even) or _is_rough(scene):
         raise PlanError(
-            f"ViscousForce knows {what}{size} between smooth faces: flow factors are those of a "
-            f"Newtonian film that does not slip; give the roughness as a relief, or {cure}"
+            f"ViscousForce knows {what}{size} between even, smooth faces, discs and under a "
+            f"sphere, not with tilt, crown, recess, relief, roughness or a cavity that is followed; "
+            f"{cure}"
         )
+
+
+def _is_rough(scene: SeparationScene) -> bool:
+    return any(face.roughness is not None for face in scene.interface.faces)
 
 
 def force_change(
