@@ -192,7 +192,7 @@ def _check_film(
     if (on_face(scene) and not shape_of(scene.interface).is_even) or _is_rough(scene):
         raise PlanError(
             f"ViscousForce knows {what}{size} between even, smooth faces, discs and under a "
-            f"sphere, not with tilt, crown, recess, relief, roughness or a cavity that is followed; "
+            f"sphere, not with tilt, crown, recess, relief, roughness or a followed cavity; "
             f"{cure}"
         )
 
