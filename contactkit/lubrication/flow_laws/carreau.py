@@ -92,13 +92,12 @@ class Carreau(FlowLaw):
         """See `FlowLaw.wall_flow`; the parameter is the shear rate at the wall [1/s]."""
         x = np.log(parameter * self.relaxation_time)
         stress, slope = _stress(self._shape, x)
-        first, second = _moments(self._shape, x)
-        scale = np.exp(x) / parameter
+        mean, apparent = _rates(self._shape, x, stress, slope)
         return WallFlow(
-            self.viscosity / scale * stress,
+            self.viscosity / self.relaxation_time * stress,
             parameter,
-            first / stress / scale,
-            3.0 * second / stress**2 / scale,
+            mean * parameter,
+            apparent * parameter,
             slope,
             np.ones_like(x),
         )
@@ -160,18 +159,21 @@ def _inside(shape: _Shape, low: Array, high: Array) -> tuple[Array, Array]:
     return each.sum(axis=-1), (each * stress).sum(axis=-1)
 
 
-def _moments(shape: _Shape, x: Array) -> tuple[Array, Array]:
-    """Integrals of rate times m, times stress and stress squared, up to the logarithm of a rate."""
+def _rates(shape: _Shape, x: Array, stress: Array, slope: Array) -> tuple[Array, Array]:
+    """Mean and apparent rate of a half film over the rate at its wall [-]."""
     edges, below, below_square = _panels(shape)
     within = np.clip(x, edges[0], edges[-1])
     panel = np.searchsorted(edges, within, side="right") - 1
     first, second = _inside(shape, edges[panel], within)
-    first, second = below[panel] + first, below_square[panel] + second
-    if ((x >= edges[0]) & (x <= edges[-1])).all():
-        return first, second
+    outside = within != x
+    if not outside.any():
+        rate = np.exp(x)
+        first, second = below[panel] + first, below_square[panel] + second
+        return first / stress / rate, 3.0 * second / stress**2 / rate
+    at_end = np.where(outside, 1.0, stress)
+    rate = np.where(outside, 1.0, np.exp(within))
+    mean = (below[panel] + first) / at_end / rate
+    apparent = 3.0 * (below_square[panel] + second) / at_end**2 / rate
     # Beyond both ends the law is a power of the rate.
-    stress, slope = _stress(shape, x)
-    outside = (x < edges[0]) | (x > edges[-1])
-    tail = np.exp(x) * stress * slope
-    first = np.where(outside, tail / (1.0 + slope), first)
-    return first, np.where(outside, tail * stress / (1.0 + 2.0 * slope), second)
+    mean = np.where(outside, slope / (1.0 + slope), mean)
+    return mean, np.where(outside, 3.0 * slope / (1.0 + 2.0 * slope), apparent)

@@ -90,17 +90,22 @@ def unlike(law: HalfFilms, flow: WallFlow, less: Array, more: Array) -> GapFlow:
     .. math:: \frac{b_1}{h} \dot\gamma_1 + \frac{\tau_1 C_1}{S}
               = \frac{b_2}{h} \dot\gamma_2 + \frac{\tau_2 C_2}{S}
     """
+    is_known = np.isfinite(flow.rate) & np.isfinite(flow.apparent_rate)  # else too large a trial
 
     def residual(parameter: Array) -> tuple[Array, Array]:
-        excess, _, by_other = _velocity_difference(flow, law.wall_flow(parameter), less, more)
-        scale = less * flow.rate + flow.mean_rate
-        return excess / scale, -by_other / scale
+        other = law.wall_flow(parameter)
+        (one, one_by), (two, two_by) = _velocities(flow, other, less, more)
+        # Both velocities as logarithms: of Eyring's law they are exponentials of the stress.
+        slope = two_by / two - one_by / one
+        return np.where(is_known, np.log(one / two), 0.0), np.where(is_known, slope, 1.0)
 
     # The plane of a Newtonian liquid, and a stress that is never the larger one.
     start = law.of_stress(flow.stress * (1.0 + 2.0 * less) / (1.0 + 2.0 * more))
     other = law.wall_flow(positive_root(residual, start))
-    _, by_this, by_other = _velocity_difference(flow, other, less, more)
-    follows = -by_this / by_other
+    (_, one_by), (_, two_by) = _velocities(flow, other, less, more)
+    # The plane of both velocities: the same from the other half gives the slopes over this one.
+    (_, two_by_this), (_, one_by_this) = _velocities(other, flow, more, less)
+    follows = (one_by_this - two_by_this) / (two_by - one_by)
     both = flow.stress + other.stress
     weight, beside = flow.stress / both, other.stress / both
     slip = 6.0 * (less * flow.rate * weight + more * other.rate * beside)
@@ -119,19 +124,18 @@ def unlike(law: HalfFilms, flow: WallFlow, less: Array, more: Array) -> GapFlow:
     return GapFlow(0.5 * both, rate, flow.stress, flow.rate, mean, drive_slope, slope / rate)
 
 
-def _velocity_difference(
+def _velocities(
     one: WallFlow, other: WallFlow, less: Array, more: Array
-) -> tuple[Array, Array, Array]:
-    """Velocity over gap of one half less that of the other, and its slopes over ln(parameter)."""
+) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """Velocities of both halves over the gap, each with its slope over ln(parameter of `other`)."""
     both = one.stress + other.stress
-    mean = (one.stress * one.mean_rate - other.stress * other.mean_rate) / both
-    excess = less * one.rate - more * other.rate + mean
-    # d(tau C) = rate d(tau).
-    by_one = less * one.rate * one.rate_slope
-    by_one = by_one + (one.rate - mean) * one.stress / both * one.stress_slope
-    by_other = -more * other.rate * other.rate_slope
-    by_other = by_other - (other.rate + mean) * other.stress / both * other.stress_slope
-    return excess, by_one, by_other
+    weight, beside = one.stress / both, other.stress / both
+    of_one, of_other = weight * one.mean_rate, beside * other.mean_rate
+    # The mean rate times the stress has the rate as its slope.
+    by_one = -of_one * beside * other.stress_slope
+    by_other = more * other.rate * other.rate_slope
+    by_other = by_other + (other.rate - of_other) * beside * other.stress_slope
+    return (less * one.rate + of_one, by_one), (more * other.rate + of_other, by_other)
 
 
 def positive_root(residual: Callable[[Array], tuple[Array, Array]], start: Array) -> Array:

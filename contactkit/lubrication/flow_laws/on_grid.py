@@ -39,8 +39,10 @@ __all__ = ["FilmOnGrid", "solve_on_grid"]
 # Flux, over that which a cell takes up, below which a cell counts as stagnant: the mean over a cell
 # around a stagnation point is a quarter.
 _STAGNANT = 0.1
+# Iterations in which a film may have no pressure: one that closes slowly enough finds it within 5.
+_PATIENCE = 15
 _LARGEST_STEP = 2.0  # of ln K in an iteration
-_MOST = 500.0  # logarithm of the viscosity ratio in an iteration
+_MOST = 200.0  # logarithm of the viscosity ratio in an iteration
 
 
 class FilmOnGrid(NamedTuple):
@@ -126,14 +128,21 @@ def solve_on_grid(
     floor = np.abs(np.broadcast_to(np.asarray(rate, dtype=float), face.shape))
     floor = floor * (_STAGNANT * max(face.pixel_size))
     logs = _conductivity(face, law, _first_flux(face, law, height, rate), height, None)
-    mixing, before = Anderson(), math.inf
+    mixing, before, n_blocked = Anderson(), math.inf, 0
     for iteration in range(1, max_iterations + 1):
         state = unchecked_pressure(film, np.exp(logs / 3.0), rate, solver=solver)
         pressure, flux = _pressure(law, state), np.maximum(_flux(state), floor)
         found = _conductivity(face, law, flux, height, pressure)
-        missed = float(np.abs(found - logs).max())
-        force = _force(face, pressure)
-        change, before = abs(force - before) / max(abs(force), 1e-300), force
+        missed, force = float(np.abs(found - logs).max()), _force(face, pressure)
+        is_blocked = not math.isfinite(force)
+        n_blocked += is_blocked
+        if n_blocked > _PATIENCE or (is_blocked and missed <= rtol):
+            raise InfeasibleError(
+                "the film cannot close so fast: its viscosity grows with pressure without bound, "
+                "and no pressure drives the liquid out; close more slowly, or take Roelands' law"
+            )
+        change = math.inf if is_blocked else abs(force - before) / max(abs(force), 1e-300)
+        before = force
         if missed <= rtol:
             return _result(law, state, height, iteration, change)
         blocks = (np.asarray(one, dtype=np.float64) for one in (logs, found))
@@ -209,11 +218,6 @@ def _result(
     law: FlowLaw, state: GridFilmState, height: Array, iterations: int, change: float
 ) -> FilmOnGrid:
     face, pressure, flux = state.film.face, _pressure(law, state), _flux(state)
-    if not np.isfinite(pressure).all():
-        raise InfeasibleError(
-            "the film cannot close so fast: its viscosity grows with pressure without bound, and "
-            "no pressure drives the liquid out; close more slowly, or take Roelands' law"
-        )
     inside = face.loaded
     q, h = np.where(inside, flux, 0.0), np.where(inside, height, 1.0)
     gradient = np.asarray(law.gradient(q, h, np.where(inside, pressure, 0.0)))

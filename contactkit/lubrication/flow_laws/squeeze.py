@@ -22,6 +22,7 @@ from ...errors import ConvergenceError, DescriptionError
 from ...numerics.quadrature import gauss_legendre
 from .base import FlowLaw, plain
 from .gap_flow import GapFlow
+from .pressure_laws import PressureLaw
 from .walls import Flats, Walls
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ _FAR = 25.0  # logarithms beyond the core, where a film without a rim ends
 _TOGETHER = 256  # pairs solved at once, for memory
 _MOST = 80  # iterations of Newton's method
 _MOST_HALVINGS = 50
-_OVERFLOW = 600.0  # of the logarithm of the viscosity ratio
+_OVERFLOW = 300.0  # of the logarithm of the viscosity ratio
 
 
 class SqueezedFilm(NamedTuple):
@@ -129,7 +130,7 @@ def squeeze_film(
     -----
     The error of force and pressure at the axis is 1e-10 for smooth laws and gaps, 1e-7 at the kink
     of a power law with a plateau. Where a pressure law stiffens a closing film without bound, no
-    pressure carries the flux: the force is -inf (also where the viscosity would grow by exp(600)).
+    pressure carries the flux: the force is -inf (also where the viscosity would grow by exp(300)).
     Valid for a film that is full, far thinner than wide, without inertia and compression.
 
     References
@@ -290,7 +291,8 @@ def _newton(
     """Newton's method for the pressure at the nodes; inf where there is none."""
     rim, inward, step, matrix = rule
     assert law.pressure_law is not None
-    blocked = np.zeros(pressure.shape[0], dtype=bool)
+    blocked = _is_beyond(law.pressure_law, pressure)
+    pressure = np.where(blocked[:, None], rim, pressure)
     for _ in range(_MOST):
         flow = law.flow(flux, height, pressure)
         slope = 2.0 * flow.drive / height * step
@@ -299,9 +301,7 @@ def _newton(
         change = _volterra(residual, inward * stiff, matrix)
         pressure = pressure + change
         size = np.abs(pressure).max(axis=1)
-        blocked |= ~np.isfinite(size)
-        pressure = np.where(blocked[:, None], rim, pressure)
-        blocked |= law.pressure_law.logarithm(pressure)[0].max(axis=1) > _OVERFLOW
+        blocked |= _is_beyond(law.pressure_law, pressure)
         pressure = np.where(blocked[:, None], rim, pressure)
         if (blocked | (np.abs(change).max(axis=1) <= 1e-13 * size)).all():
             break
@@ -309,6 +309,13 @@ def _newton(
         raise ConvergenceError("the pressure of the film did not settle", pressure)
     flow = law.flow(flux, height, pressure)
     return np.where(blocked[:, None], math.inf, pressure), flow
+
+
+def _is_beyond(law: PressureLaw, pressure: Array) -> Any:
+    """Whether the viscosity of a film is beyond all measure somewhere."""
+    known = np.isfinite(pressure)
+    logarithm = law.logarithm(np.where(known, pressure, 0.0))[0]
+    return (~known | (logarithm > _OVERFLOW)).any(axis=1)
 
 
 def _volterra(right: Array, kernel: Array, matrix: Array) -> Array:
