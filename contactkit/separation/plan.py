@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, InfeasibleError, PlanError
@@ -296,7 +296,7 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
     if mixture := mixed(scene):
         raise PlanError(mixture)
     _check_gap(scene)
-    prepared = prepare_scene(scene, accuracy, liquid)
+    prepared = _with_rheology(prepare_scene(scene, accuracy, liquid))
     film = _as_it_moves(prepared, _film(prepared))
     loading = scene.loading
     if isinstance(loading, ImposedForce) and loading.mass is None and not film.sets_speed:
@@ -316,6 +316,16 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
     films = {1.0: film} | _rewetted(prepared, film)
     states = MappingProxyType(_states(films))
     return Plan(prepared, film, columns, MappingProxyType(films), states)
+
+
+def _with_rheology(prepared: PreparedScene[SeparationScene]) -> PreparedScene[SeparationScene]:
+    """Add the rheology of the film, where the liquid is not Newtonian or slips."""
+    meniscus = prepared.scene.meniscus
+    if meniscus.liquid.is_newtonian and not meniscus.slips:
+        return prepared
+    from .rheology.choice import film_rheology
+
+    return evolve(prepared, rheology=film_rheology(prepared))
 
 
 def _columns(scene: SeparationScene) -> Mapping[str, Column]:

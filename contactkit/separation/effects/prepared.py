@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 from attrs import evolve, frozen
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ...liquids.liquid import LiquidState
     from ...scene.scenes import SeparationScene, SlidingScene
     from ..face.film import FaceFilm
-    from ..rheology.choice import FilmRheology
+    from .rheology_view import FilmRheologyView
 
 __all__ = [
     "Angles",
@@ -59,8 +59,8 @@ class PreparedScene(Generic[S_co]):
     liquid: LiquidState
     film: FilmShape
     liquid_pressure: float | None
-    computed_rheology: tuple[str, ...] | None = None
-    """Parts of the rheology of the liquid that are computed, where a larger film decided that."""
+    rheology: FilmRheologyView | None = None
+    """Rheology of the film, which a plan adds; None for a Newtonian liquid that does not slip."""
 
     @property
     def angles(self) -> Angles:
@@ -86,18 +86,6 @@ class PreparedScene(Generic[S_co]):
         gaps = loading.smallest_gap, loading.final_gap
         return face_film(shape_of(self.scene.interface), gaps, self.accuracy.film_rtol)
 
-    @cached_property
-    def rheology(self) -> FilmRheology | None:
-        """Rheology of the film; None for a Newtonian liquid that does not slip."""
-        meniscus = self.scene.meniscus
-        if isinstance(self.scene.loading, Sliding) or (
-            meniscus.liquid.is_newtonian and not meniscus.slips
-        ):
-            return None
-        from ..rheology.choice import film_rheology
-
-        return film_rheology(cast("PreparedScene[SeparationScene]", self))
-
     @property
     def wetting(self) -> float:
         """Sum of the cosines of both contact angles [-]."""
@@ -116,7 +104,7 @@ def with_fraction(
     scene = evolve(scene, interface=evolve(scene.interface, meniscus=less))
     made = prepare_scene(scene, prepared.accuracy, prepared.liquid)
     rheology = prepared.rheology
-    return made if rheology is None else evolve(made, computed_rheology=rheology.computed)
+    return made if rheology is None else evolve(made, rheology=rheology.again(made))
 
 
 S = TypeVar("S", bound="SeparationScene | SlidingScene")

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
     from ..face.film import FaceFilm
+    from ..rheology.heating import HeatedFilm
     from .base import Curve, PlanView, RunView
     from .prepared import PreparedScene
 
@@ -125,7 +126,7 @@ class ViscousPart(ForcePart):
         """
         from ..rheology.heating import temperature_rise
 
-        found = temperature_rise(self.result.plan.prepared, _wet_path(self.result))
+        found = temperature_rise(_heated(self.result.plan.prepared), _wet_path(self.result))
         if found is None:
             raise NotSimulatedError(
                 "no temperature rise of the film: give liquid.thermal_conductivity [W/m/K], or "
@@ -808,12 +809,20 @@ def _rheology_numbers(
     prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
 ) -> tuple[ValidityNumber, ...]:
     """Ranges of the rheology of the liquid, and how far the film heats itself."""
-    liquid = prepared.scene.meniscus.liquid
-    if prepared.rheology is None and liquid.heat_capacity is None:
-        return ()
-    from ..rheology.validity import rheology_numbers
+    rheology, liquid = prepared.rheology, prepared.scene.meniscus.liquid
+    found = rheology.numbers(prepared, path) if rheology is not None else ()
+    if liquid.heat_capacity is None:
+        return found
+    from ..rheology.heating import heating_number
 
-    return rheology_numbers(prepared, path)
+    return (*found, heating_number(_heated(prepared), path))
+
+
+def _heated(prepared: PreparedScene[SeparationScene]) -> HeatedFilm:
+    from ..rheology.heating import HeatedFilm
+
+    law, strength = viscous_law(prepared), _strength(prepared.scene)
+    return HeatedFilm(prepared, viscous_film(prepared), law, strength)
 
 
 def _grid_error(prepared: PreparedScene[SeparationScene]) -> tuple[ValidityNumber, ...]:

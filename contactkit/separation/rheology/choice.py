@@ -10,30 +10,28 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-import numpy as np
 from attrs import field, frozen
 
 from ...errors import PlanError
 from ...lubrication.flow_laws.newtonian import Newtonian
 from ...scene.loading import ImposedForce, ImposedSpeed, ImposedTime
 from ..film import balance_speed
+from .changes import PARTS, WORTH, force_change
 from .film import RheologicalFilm
 from .prepared_film import PreparedFilm
+from .validity import rheology_numbers
 
 if TYPE_CHECKING:
     from ...scene.loading import SeparationLoading
     from ...scene.scenes import SeparationScene
+    from ...validity import ValidityNumber
     from ..effects.prepared import PreparedScene
     from ..effects.viscous import ViscousForce
     from .face import SlippingFace
 
-__all__ = ["PARTS", "WORTH", "FilmRheology", "Part", "film_rheology", "force_change"]
-
-WORTH = 0.01
-"""Change of the force that a part is computed for [-]. The neighbours of Reynolds' equation are of
-that size: a film 170 times as wide as high loses 1 % at its rim, and 4 K change an oil by 20 %."""
+__all__ = ["FilmRheology", "film_rheology"]
 
 _GAPS = 17  # of the expected motion: a change of the force is known to a tenth of itself
 _TINY = 1e-300
@@ -42,19 +40,6 @@ _TINY = 1e-300
 _NEARER, _FARTHER, _FASTER = 0.3, 1.5, 30.0
 _EDGE = 1.0 + 1e-9  # rounding of the ends of a motion
 _FASTEST = 1e6  # [1/s], where no motion is expected
-
-
-class Part(NamedTuple):
-    """A part of the rheology: the field of `Liquid` that has it, and what it is in words."""
-
-    name: str
-    words: str
-
-
-PARTS = (
-    Part("pressure_viscosity", "viscosity over pressure"),
-    Part("shear_viscosity", "viscosity over shear"),
-)
 
 
 @frozen(eq=False)
@@ -96,13 +81,27 @@ class FilmRheology:
             found.append(f"{words[name]} is {what}{size}")
         return tuple(found)
 
+    def again(self, prepared: PreparedScene[SeparationScene]) -> FilmRheology | None:
+        """The same choice for another volume of the liquid, of a prepared scene."""
+        return film_rheology(prepared, self.computed)
+
+    def numbers(
+        self, prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
+    ) -> tuple[ValidityNumber, ...]:
+        """Ranges along gaps [m] and speeds [m/s]."""
+        return rheology_numbers(prepared, self, path)
+
 
 def _per_cent(change: float) -> str:
     return f"{100.0 * change:.2g} %"
 
 
-def film_rheology(prepared: PreparedScene[SeparationScene]) -> FilmRheology | None:
+def film_rheology(
+    prepared: PreparedScene[SeparationScene], computed: tuple[str, ...] | None = None
+) -> FilmRheology | None:
     """Rheology of the film of a scene; None for a Newtonian liquid that does not slip.
+
+    `computed` are the parts that a film of more liquid computes; None: they are chosen.
 
     Raises
     ------
@@ -119,7 +118,6 @@ def film_rheology(prepared: PreparedScene[SeparationScene]) -> FilmRheology | No
         return None
     path = _expected(prepared)
     changes = {} if path is None else {one: force_change(prepared, one, path) for one in given}
-    computed = prepared.computed_rheology
     if computed is None:
         computed = _computed(viscous, given, changes)
     left = tuple(name for name in given if name not in computed)
@@ -199,23 +197,6 @@ def _check_film(
 
 def _is_rough(scene: SeparationScene) -> bool:
     return any(face.roughness is not None for face in scene.interface.faces)
-
-
-def force_change(
-    prepared: PreparedScene[SeparationScene], name: str, path: Sequence[tuple[float, float]]
-) -> float:
-    """Largest relative change of the force by one part alone, along gaps [m] and speeds [m/s].
-
-    Where the liquid of a scene cavitates, that of the force of the cavitated film.
-    """
-    moving = [(gap, speed) for gap, speed in path if speed != 0.0]
-    if not moving:
-        return 0.0
-    gaps, speeds = np.array(moving).T
-    plain, changed = (RheologicalFilm.of(prepared, parts) for parts in ((), (name,)))
-    wet = plain.radii(gaps) > 0.0
-    before, after = (one.bounded_forces(gaps[wet], speeds[wet]) for one in (plain, changed))
-    return float(np.abs(after / before - 1.0).max(initial=0.0))
 
 
 def _expected(prepared: PreparedScene[SeparationScene]) -> list[tuple[float, float]] | None:

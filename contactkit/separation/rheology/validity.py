@@ -1,4 +1,4 @@
-"""Ranges of the rheology of a film along a run: what is left out, tension, memory, heating."""
+"""Ranges of the rheology of a film along a run: what is left out, tension, memory."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ...validity import ValidityNumber
-from .choice import PARTS, WORTH, FilmRheology, force_change
+from .changes import PARTS, WORTH, force_change
 from .prepared_film import PreparedFilm
 
 if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene
     from ..effects.prepared import PreparedScene
+    from ..effects.rheology_view import FilmRheologyView
 
 __all__ = ["rheology_numbers"]
 
@@ -21,33 +22,40 @@ _MOST_POINTS = 33  # of a path; what is stated of it is the largest, to some per
 # change their viscosity by a fifth. Beyond, the slope at ambient pressure says nothing.
 _MOST_IN_TENSION = 0.2
 _COMPARED = 4  # points of a path at which a table is compared
-_MOST_HEATING = 0.05  # relative change of the viscosity, as that of other neglected effects
 
 
 def rheology_numbers(
-    prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
+    prepared: PreparedScene[SeparationScene],
+    rheology: FilmRheologyView,
+    path: Sequence[tuple[float, float]],
 ) -> tuple[ValidityNumber, ...]:
     """Evaluate the numbers along pairs of gap [m] and speed [m/s] while the film spans the gap."""
     step = max(1, math.ceil(len(path) / _MOST_POINTS))
     # The first point has the thinnest film of an opening.
     points = [*path[::step], path[-1]]
-    rheology = prepared.rheology
-    found: list[ValidityNumber] = []
-    if rheology is not None:
-        found += _left_out(prepared, rheology, points)
-        if isinstance(rheology.film, PreparedFilm):
-            found += _of_laws(prepared, rheology.film, points)
-            found += _of_table(prepared, rheology.film, points)
-    return (*found, *_heating(prepared, points))
+    found = [*_left_out(prepared, rheology, points)]
+    if isinstance(rheology.film, PreparedFilm):
+        found += _of_laws(prepared, rheology.computed, rheology.film, points)
+        found += _of_table(prepared, rheology.film, points)
+    return tuple(found)
+
+
+def _without(
+    prepared: PreparedScene[SeparationScene], rheology: FilmRheologyView
+) -> tuple[str, ...]:
+    """Parts that the liquid gives and the force leaves out."""
+    liquid = prepared.scene.meniscus.liquid
+    names = (part.name for part in PARTS if getattr(liquid, part.name) is not None)
+    return tuple(name for name in names if name not in rheology.computed)
 
 
 def _left_out(
     prepared: PreparedScene[SeparationScene],
-    rheology: FilmRheology,
+    rheology: FilmRheologyView,
     points: Sequence[tuple[float, float]],
 ) -> Iterator[ValidityNumber]:
     words = dict(PARTS)
-    for name in rheology.left_out:
+    for name in _without(prepared, rheology):
         yield ValidityNumber(
             name=f"{words[name]}, left out of the force",
             value=force_change(prepared, name, points),
@@ -60,11 +68,11 @@ def _left_out(
 
 def _of_laws(
     prepared: PreparedScene[SeparationScene],
+    computed: tuple[str, ...],
     film: PreparedFilm,
     points: Sequence[tuple[float, float]],
 ) -> Iterator[ValidityNumber]:
-    liquid, rheology = prepared.scene.meniscus.liquid, prepared.rheology
-    computed = rheology.computed if rheology is not None else ()
+    liquid = prepared.scene.meniscus.liquid
     pressure, shear = liquid.pressure_viscosity, liquid.shear_viscosity
     if pressure is not None and "pressure_viscosity" in computed:
         drops = [(film.peak_pressure(h, v), v) for h, v in points if v != 0.0]
@@ -111,34 +119,4 @@ def _of_table(
         high=2.0 * prepared.accuracy.film_rtol,
         detail="relative, of the force of a full film; at the kink of a power law 7e-4",
         source="the same without a table, along the run",
-    )
-
-
-def _heating(
-    prepared: PreparedScene[SeparationScene], points: Sequence[tuple[float, float]]
-) -> Iterator[ValidityNumber]:
-    """How far the film heats itself, as a change of its viscosity."""
-    liquid = prepared.scene.meniscus.liquid
-    if liquid.heat_capacity is None:
-        return
-    from .heating import temperature_rise, viscosity_slope
-
-    rise = temperature_rise(prepared, points)
-    slope = viscosity_slope(liquid, prepared.scene.temperature)
-    needs = [
-        f"liquid.{name} [{unit}]"
-        for name, unit in (("density", "kg/m3"), ("thermal_conductivity", "W/m/K"))
-        if getattr(liquid, name) is None
-    ]
-    detail = f"{' and '.join(needs)} is not given" if needs else ""
-    if rise is not None:
-        detail = f"the film heats itself by {rise:.2g} K at most"
-        if slope is None:
-            detail += "; the viscosity is a constant, which no temperature changes"
-    yield ValidityNumber(
-        name="viscosity lost by heating",
-        value=None if rise is None or slope is None else abs(slope) * rise,
-        high=_MOST_HEATING,
-        detail=detail,
-        source="viscous work over heat capacity, or over conduction to the walls",
     )
