@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 __all__ = ["FilmRheology", "film_rheology"]
 
 _GAPS = 17  # of the expected motion: a change of the force is known to a tenth of itself
-_TINY = 1e-300
+_TINY = 1e-300  # in place of a force of zero, as of a film without a radius
 # Reach of tables beyond the motion that is expected under a force; what lies farther is computed
 # directly.
 _NEARER, _FARTHER, _FASTER = 0.3, 1.5, 30.0

@@ -26,7 +26,7 @@ __all__ = ["PreparedFilm"]
 
 _SLOWEST = 1e-8  # rates of shear over the fastest, from which a table may begin
 _STIFFEST = 2.0  # logarithm of a closing force over the linear one: beyond is its pole
-_ITERATIONS = 12
+_ITERATIONS = 12  # of Newton's method, which squares the error each time
 
 
 @frozen(eq=False)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["LogTable", "log_table", "places"]
 
-_DEGREE = 5
+_DEGREE = 5  # of the splines
 _GAPS, _SPEEDS = 5, 8
 """Points of a table in a decade of gap and of speed: quintics through them leave 2e-5 of Carreau's
 law under a sphere and of Barus' law, 1e-5 of a sharp bend, 5e-4 at the kink of a power law."""
