@@ -25,7 +25,7 @@ class RheologicalForce(Protocol):
 
 
 class FilmRheologyView(Protocol):
-    """What a film computes of the rheology of its liquid, and what it leaves out."""
+    """Rheology of a film: parts that are computed, and parts that are left out."""
 
     @property
     def computed(self) -> tuple[str, ...]:
@@ -37,7 +37,7 @@ class FilmRheologyView(Protocol):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is computed and left out, in sentences."""
+        """Parts that are computed and left out, in sentences."""
 
     @property
     def film(self) -> RheologicalForce | None:

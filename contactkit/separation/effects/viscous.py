@@ -113,7 +113,7 @@ class ViscousPart(ForcePart):
 
     @property
     def temperature_rise(self) -> float:
-        """Bound on how far the film heats itself over the run [K].
+        """Bound on the temperature rise of the film over the run [K].
 
         The smaller of two: all work stays in the liquid, and walls of constant temperature take up
         all heat.
@@ -175,7 +175,7 @@ def _wet_path(result: RunView) -> list[tuple[float, float]]:
 
 @frozen(kw_only=True)
 class ViscousForce(SeparationForce):
-    """Resistance of a film to being drawn out, by Reynolds' equation.
+    """Viscous force of a film that is drawn out, by Reynolds' equation.
 
     Parameters
     ----------
@@ -808,7 +808,7 @@ def _validity(
 def _rheology_numbers(
     prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
 ) -> tuple[ValidityNumber, ...]:
-    """Ranges of the rheology of the liquid, and how far the film heats itself."""
+    """Ranges of the rheology of the liquid, and the heat of the film."""
     rheology, liquid = prepared.rheology, prepared.scene.meniscus.liquid
     found = rheology.numbers(prepared, path) if rheology is not None else ()
     if liquid.heat_capacity is None:

@@ -1,7 +1,7 @@
 """Films of liquids whose viscosity depends on pressure and shear, and which slip.
 
 changes        Parts of the rheology, and what each changes the force by.
-choice         What a film computes of the rheology of its liquid, by what each part changes.
+choice         Choice of the parts that a film computes, by what each changes.
 film           Force and pressure of such a film, between discs and under a sphere.
 face           A film that slips on an even face of any planform.
 limits         The same where its pressure is truncated.

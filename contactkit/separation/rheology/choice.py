@@ -1,4 +1,4 @@
-"""What a film computes of the rheology of its liquid, and how much it leaves out.
+"""Choice of the parts of a rheology that a film computes, with the size of what is left out.
 
 Each part of a liquid, its viscosity over pressure and that over shear, is tried alone on the
 motion that the loading lets expect. One that changes the force by less than `WORTH` anywhere is
@@ -70,7 +70,7 @@ class FilmRheology:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is computed and left out, in sentences."""
+        """Parts that are computed and left out, in sentences."""
         words = dict(PARTS)
         found = []
         for name in (*self.computed, *self.left_out):
@@ -146,7 +146,7 @@ def _made(
     """Film with tables over the motion that is expected, and over more where it is not imposed."""
     fastest = max((film.shear_per_speed(h) * abs(v) for h, v in path or ()), default=0.0)
     if isinstance(loading, ImposedForce):
-        if loading.force > 0.0:  # a liquid that thins lets go faster
+        if loading.force > 0.0:  # a liquid that thins opens faster
             for gap in (loading.initial_gap, loading.final_gap):
                 speed = balance_speed(partial(film.force, gap), loading.force)
                 fastest = max(fastest, film.shear_per_speed(gap) * speed)

@@ -1,4 +1,4 @@
-"""How far a squeezed film heats itself: by its own work, or as far as the walls let it."""
+"""Temperature rise of a squeezed film: by its own work, or as far as the walls let it."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def _conducted(heated: HeatedFilm, gap: float, speed: float, conductivity: float
 
 
 def heating_number(heated: HeatedFilm, path: Sequence[tuple[float, float]]) -> ValidityNumber:
-    """How far a film heats itself along gaps [m] and speeds [m/s], as a change of viscosity."""
+    """Change of the viscosity by the heat of a film, along gaps [m] and speeds [m/s]."""
     scene = heated.prepared.scene
     step, liquid = max(1, math.ceil(len(path) / _MOST_POINTS)), scene.meniscus.liquid
     rise = temperature_rise(heated, [*path[::step], path[-1]])
