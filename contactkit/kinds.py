@@ -21,6 +21,7 @@ __all__ = [
     "LOADINGS",
     "MENISCUS_PROFILES",
     "PLANFORMS",
+    "RHEOLOGY_LAWS",
     "SEPARATION_EFFECTS",
     "SEPARATION_LOADINGS",
     "SLIDING_EFFECTS",
@@ -173,6 +174,20 @@ TEMPERATURE_LAWS: Registry[Any] = Registry(
     group="contactkit.temperature_laws",
     role="TemperatureLaw",
 )
+RHEOLOGY_LAWS: Registry[Any] = Registry(
+    "rheology law",
+    {
+        "barus": "liquids.rheology.pressure:BarusViscosity",
+        "roelands": "liquids.rheology.pressure:RoelandsViscosity",
+        "power-law": "liquids.rheology.shear:PowerLawViscosity",
+        "carreau": "liquids.rheology.shear:CarreauViscosity",
+        "eyring": "liquids.rheology.shear:EyringViscosity",
+        "dowson-higginson": "liquids.rheology.density:DowsonHigginsonDensity",
+    },
+    tag="law",
+    role="PressureViscosity, ShearViscosity or PressureDensity",
+)
+"""Laws of pressure and shear. Films know how each of these flows, and no other: no group."""
 ATTRACTION_LAWS: Registry[Any] = Registry(
     "attraction law",
     {
@@ -236,6 +251,7 @@ KINDS: Registries[Any] = Registries(
     SOLIDS,
     LOADINGS,
     TEMPERATURE_LAWS,
+    RHEOLOGY_LAWS,
     ATTRACTION_LAWS,
     HARDNESS_RULES,
     MENISCUS_PROFILES,

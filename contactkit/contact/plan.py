@@ -304,6 +304,11 @@ def _check_bodies(scene: ContactScene) -> None:
                 f"interface.{name}.surface.{given} has no effect: the window of a contact has no "
                 "rim; leave it out, or give the face as Heights"
             )
+    if interface.meniscus is not None and interface.meniscus.slips:
+        problems.append(
+            "interface.meniscus.slip_length_lower and slip_length_upper have no effect: the liquid "
+            "of a contact does not flow; leave them out"
+        )
     if problems:
         raise PlanError("; ".join(problems))
 

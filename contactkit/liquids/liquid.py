@@ -9,7 +9,10 @@ from attrs import Attribute, field, fields, fields_dict, frozen
 from ..errors import DescriptionError
 from ..kinds import TEMPERATURE_LAWS
 from ..units import si
-from ..validators import Described, optional, positive, refuse
+from ..validators import Described, optional, part, positive, refuse
+from .rheology.density import PressureDensity
+from .rheology.pressure import PressureViscosity
+from .rheology.shear import ShearViscosity
 from .temperature_laws import TemperatureLaw, celsius_hint
 from .viscosity import MAX_KINEMATIC_VISCOSITY, centistokes_hint
 
@@ -21,6 +24,7 @@ __all__ = ["Liquid", "LiquidState"]
 _MAX_SURFACE_TENSION = 10.0  # [N/m]
 _MAX_MOLAR_MASS = 10.0  # [kg/mol]
 _MIN_BULK_MODULUS = 1e5  # [Pa]; foams are softer, and are no liquids here
+_MIN_HEAT_CAPACITY = 50.0  # [J/kg/K]; mercury has 139, water in kJ/kg/K 4.2
 
 
 @frozen
@@ -127,9 +131,17 @@ def _bulk(owner: object, attribute: Attribute[Any], value: Any) -> None:
         raise refuse(owner, attribute, value, f"be at least {_MIN_BULK_MODULUS:g}", cure)
 
 
+def _heat(owner: object, attribute: Attribute[Any], value: Any) -> None:
+    """Refuse anything but a positive number; the hint suggests kJ/kg/K for one far too small."""
+    positive(owner, attribute, value)
+    if value < _MIN_HEAT_CAPACITY:
+        cure = f"was it given in kJ/kg/K? write '{value:g} kJ/kg/K' in a file, or {value:g}e3"
+        raise refuse(owner, attribute, value, f"be at least {_MIN_HEAT_CAPACITY:g}", cure)
+
+
 @frozen(kw_only=True)
 class Liquid(Described):
-    """A Newtonian liquid; properties that no effect needs may be omitted.
+    """A liquid; properties that no effect needs may be omitted.
 
     Parameters
     ----------
@@ -149,6 +161,16 @@ class Liquid(Described):
     bulk_modulus : float, optional
         Bulk modulus [Pa] at low pressure, without bubbles. Films are taken for incompressible; it
         says how far they are.
+    pressure_viscosity : BarusViscosity or RoelandsViscosity, optional
+        Viscosity over pressure. None: it stays.
+    shear_viscosity : PowerLawViscosity, CarreauViscosity or EyringViscosity, optional
+        Viscosity over the rate of shear. None: a Newtonian liquid.
+    pressure_density : DowsonHigginsonDensity, optional
+        Density over pressure, in place of a `bulk_modulus`.
+    heat_capacity : float, optional
+        Specific heat capacity [J/kg/K]; with it a film states how far it may heat itself.
+    thermal_conductivity : float, optional
+        Thermal conductivity [W/m/K], for the same.
     source : str
         Source of the constants; laws carry their own source.
 
@@ -157,12 +179,12 @@ class Liquid(Described):
     DescriptionError
         If a constant is not positive and finite, or seems to be in mN/m or cSt; if the unit of a
         law is not that of the field; if both viscosities are given; if a kinematic viscosity is
-        given without a density.
+        given without a density; if both a bulk modulus and a density over pressure are given.
 
     Notes
     -----
-    Neglected: pressure (the viscosity of mineral oil doubles every 30 to 50 MPa), shear thinning,
-    and ageing.
+    A `ViscousForce` computes what its numbers call for of pressure and shear. Neglected: ageing,
+    elasticity (normal stress), and layers that solidify at a wall.
 
     Examples
     --------
@@ -201,9 +223,28 @@ class Liquid(Described):
         default=None, validator=optional(_molar), metadata=si("kg/mol")
     )
     bulk_modulus: float | None = field(default=None, validator=optional(_bulk), metadata=si("Pa"))
+    pressure_viscosity: PressureViscosity | None = field(
+        default=None, validator=optional(part(PressureViscosity))
+    )
+    shear_viscosity: ShearViscosity | None = field(
+        default=None, validator=optional(part(ShearViscosity))
+    )
+    pressure_density: PressureDensity | None = field(
+        default=None, validator=optional(part(PressureDensity))
+    )
+    heat_capacity: float | None = field(
+        default=None, validator=optional(_heat), metadata=si("J/kg/K")
+    )
+    thermal_conductivity: float | None = field(
+        default=None, validator=optional(positive), metadata=si("W/m/K")
+    )
     source: str = ""
 
     def __attrs_post_init__(self) -> None:
+        if self.pressure_density is not None and self.bulk_modulus is not None:
+            expected, kind = "be left out where bulk_modulus is given", self.pressure_density.kind
+            where = fields(Liquid).pressure_density
+            raise refuse(self, where, kind, expected, "keep one of the two")
         if self.kinematic_viscosity is None:
             return
         attribute, value = fields(Liquid).kinematic_viscosity, _shown(self.kinematic_viscosity)
@@ -244,6 +285,11 @@ class Liquid(Described):
         return LiquidState(
             surface_tension, viscosity, density, float(temperature), self.bulk_modulus
         )
+
+    @property
+    def is_newtonian(self) -> bool:
+        """Whether its viscosity depends on neither pressure nor shear."""
+        return self.pressure_viscosity is None and self.shear_viscosity is None
 
     def molar_volume(self, temperature: float) -> float:
         """Molar volume [m3/mol] at `temperature` [K].

@@ -11,5 +11,6 @@ couette_reynolds  Sphere sliding in a round film: drag from Reynolds' equation.
 dimensionless     Dimensionless numbers for the range of validity.
 elastohydrodynamic
                   Films of bodies that deform, on rings and on a grid: cavities, contact.
+flow_laws         Flow laws: shear, pressure, slip; what they make of a squeezed film.
 reynolds          Reynolds' equation in 2-D: any face, any gap, cavities with memory.
 """

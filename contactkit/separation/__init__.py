@@ -5,6 +5,7 @@ any_plan       Plan by the engine that the effects ask for: rigid or deforming b
 plan           Plan of a separation: the checked scene, its liquid, and each effect prepared once.
 bodies         Checks of the two bodies: rigid, flats or spheres, with room for the film.
 face           Film on a face that is no disc: damping law, and cavity on a grid.
+rheology       Film of a liquid whose viscosity depends on pressure and shear, or that slips.
 cavity         Cavity of a film that is pulled apart, with the history of its rupture.
 film           Sum of the prepared forces, and the limits of the liquid.
 simulate       Run of a plan: curve of a speed, impulse of a time, or motion under a pull.

@@ -15,8 +15,10 @@ from .effects.base import Limiter, LimitKind, SeparationForce
 from .effects.force_law import ForceLaw, LawAt, law_impulse
 from .integrator.radau import Forces
 
-__all__ = ["Film", "ForcesAt"]
+__all__ = ["Film", "ForcesAt", "balance_speed"]
 
+_SLOW = 1e-15  # speed [m/s] at which every liquid film is as at rest
+_MOST_SECANTS, _LONGEST, _FLATTEST = 60, 20.0, 0.02  # steps, in logarithms of force and speed
 _DIFFERENCE = 1e-7  # relative, of gap and speed, for the slopes of a force that a limit bounds
 
 
@@ -334,10 +336,31 @@ class Film:
         """Whether a force is proportional to speed, so that two gaps give its impulse."""
         return any(law.rate == "proportional" for law in self.laws.values())
 
+    @property
+    def sets_speed(self) -> bool:
+        """Whether a force grows with the speed, so that a mass is not needed to find it."""
+        pairs = self.laws.items()
+        return any(law.rate == "proportional" or kind.newtonian for kind, law in pairs)
+
     def viscous_impulse(self, start: float, end: float) -> float:
         """Impulse [N.s] between two gaps [m] of forces proportional to speed, without limits."""
         laws = (law for law in self._moving if law.rate == "proportional")
         return sum(law_impulse(law, start, end) for law in laws)
+
+    def impulse_at(self, start: float, end: float, speed: float) -> float:
+        """Impulse [N.s] between two gaps [m] at a speed [m/s], without limits."""
+        return law_impulse(ForceLaw(lambda gap, _: self.damping(gap, speed)), start, end)
+
+    def opening_time(self, start: float, end: float, pull: float) -> float:
+        """Time [s] in which a pull [N] opens the gap [m] against what grows with the speed alone.
+
+        To some per cent, without limits and static forces.
+        """
+
+        def slowness(gap: float, _: float) -> float:
+            return 1.0 / balance_speed(lambda speed: self.damping(gap, speed) * speed, pull)
+
+        return law_impulse(ForceLaw(slowness), start, end)
 
     def newtonian_impulse(self, start: float, end: float) -> float:
         """Impulse [N.s] of a flowing liquid without limits between two gaps [m]; 0 without one."""
@@ -349,6 +372,27 @@ class Film:
 
     def _liquid(self) -> list[ForceLaw]:
         return [law for kind, law in self.laws.items() if kind.newtonian is not None]
+
+
+def balance_speed(force: Callable[[float], float], pull: float) -> float:
+    """Speed [m/s] at which a force that grows with it is a pull [N], both positive, to 1e-3.
+
+    By the secant method in logarithms, from a speed so low that the force is proportional to it.
+
+    Examples
+    --------
+    >>> round(balance_speed(lambda speed: 4.0 * speed**0.5, 2.0), 3)
+    0.25
+    """
+    x = math.log(_SLOW)
+    missing, slope = math.log(pull / force(_SLOW)), 1.0
+    for _ in range(_MOST_SECANTS):
+        step = min(missing / slope, _LONGEST) if missing > 0.0 else missing / slope
+        left = math.log(pull / force(math.exp(x + step)))
+        x, slope, missing = x + step, max((missing - left) / step, _FLATTEST), left
+        if abs(missing) < 1e-3 * slope:
+            break
+    return math.exp(x)
 
 
 def _sum(one: LawAt, other: LawAt) -> LawAt:

@@ -51,7 +51,7 @@ def _when(travel: float, gap: float) -> str:
 def _in_film(loading: ImposedForce, film: Film, attraction: float, time: float) -> float:
     """Travel [m] of a body without mass: the film takes the impulse that is left."""
     start = loading.initial_gap
-    if not film.has_viscous_impulse:
+    if not film.sets_speed:
         return math.inf
     ratio, late = attraction / loading.force, time / loading.rise_time
     # Of both impulses; a series where they cancel.
@@ -60,7 +60,11 @@ def _in_film(loading: ImposedForce, film: Film, attraction: float, time: float) 
     low, high = math.log(1e-16), 0.0  # of the travel over the gap
     for _ in range(50):
         middle = 0.5 * (low + high)
-        taken = film.viscous_impulse(start * -math.expm1(middle), start)
+        end, travel = start * -math.expm1(middle), start * math.exp(middle)
+        if film.has_viscous_impulse:
+            taken = film.viscous_impulse(end, start)
+        else:
+            taken = film.impulse_at(end, start, -travel / time)
         if taken > impulse:
             high = middle
         else:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from ..accuracy import Accuracy
 from ..errors import DescriptionError, InfeasibleError, PlanError
@@ -41,6 +41,7 @@ from .effects.base import (
 )
 from .effects.force_law import measured_rate, settled
 from .effects.prepared import PreparedScene, prepare_scene, with_fraction
+from .effects.viscous import ViscousForce
 from .film import Film
 from .first_closing import closing_note
 
@@ -263,6 +264,8 @@ class Plan(ScenePlan):
                 f"the face is no even disc: all but the viscous force take it for one of the same "
                 f"area, of radius {quantity_text(self.scene.interface.rim_radius, 'm')}"
             )
+        if self.prepared.rheology is not None:
+            found += self.prepared.rheology.notes
         own = (note for effect in effects_of(self.scene) for note in effect.notes(self.scene))
         return tuple(filter(None, (*found, *own)))
 
@@ -300,10 +303,10 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
     if mixture := mixed(scene):
         raise PlanError(mixture)
     _check_gap(scene)
-    prepared = prepare_scene(scene, accuracy, liquid)
+    prepared = _with_rheology(prepare_scene(scene, accuracy, liquid))
     film = _as_it_moves(prepared, _film(prepared))
     loading = scene.loading
-    if isinstance(loading, ImposedForce) and loading.mass is None and not film.has_viscous_impulse:
+    if isinstance(loading, ImposedForce) and loading.mass is None and not film.sets_speed:
         raise PlanError(
             "an imposed force needs loading.mass [kg], or ViscousForce(), to set a speed"
         )
@@ -320,6 +323,16 @@ def plan(scene: SeparationScene, accuracy: Accuracy | None = None) -> Plan:
     films = {1.0: film} | _rewetted(prepared, film)
     states = MappingProxyType(_states(films))
     return Plan(prepared, film, columns, MappingProxyType(films), states)
+
+
+def _with_rheology(prepared: PreparedScene[SeparationScene]) -> PreparedScene[SeparationScene]:
+    """Add the rheology of the film, where the liquid is not Newtonian or slips."""
+    meniscus = prepared.scene.meniscus
+    if meniscus.liquid.is_newtonian and not meniscus.slips:
+        return prepared
+    from .rheology.choice import film_rheology
+
+    return evolve(prepared, rheology=film_rheology(prepared))
 
 
 def _columns(scene: SeparationScene) -> Mapping[str, Column]:
@@ -357,6 +370,7 @@ def _check_effects(scene: SeparationScene, kinds: Sequence[type], liquid: Liquid
             if not e.takes_pressure
         ]
     problems += _lacks_of_limits(scene, kinds)
+    problems += _unread_rheology(scene)
     if problems:
         raise PlanError("; ".join(problems))
 
@@ -390,6 +404,27 @@ def _lacks_of_limits(scene: SeparationScene, kinds: Sequence[type]) -> list[str]
             if isinstance(e, FilmLimit)
         ]
     return problems
+
+
+def _unread_rheology(scene: SeparationScene) -> list[str]:
+    """Slip and shear of the liquid that effects of a scene would leave out."""
+    viscous, meniscus, problems = scene.effect(ViscousForce), scene.meniscus, list[str]()
+    if meniscus.slips and viscous is None:
+        problems.append(
+            "interface.meniscus.slip_length_lower and slip_length_upper [m] are read by "
+            "ViscousForce() alone: list it, or leave them out"
+        )
+    if meniscus.liquid.shear_viscosity is None:
+        return problems
+    if viscous is not None and viscous.rheology == "newtonian":
+        return problems
+    cure = 'list ViscousForce(rheology="newtonian")' if viscous is not None else "leave it out"
+    return problems + [
+        f"{type(effect).__name__} takes the viscosity at rest, and the liquid has a "
+        f"shear_viscosity; {cure}"
+        for effect in effects_of(scene)
+        if effect is not viscous and "viscosity" in effect.liquid_needs(scene)
+    ]
 
 
 def _check_gap(scene: SeparationScene) -> None:

@@ -43,6 +43,9 @@ TOPICS = (
             *("temperature_laws.LinearSurfaceTension", "temperature_laws.LinearDensity"),
             *("viscosity.WaltherViscosity", "viscosity.VogelViscosity"),
             *("water.IapwsSurfaceTension", "water.KellWaterDensity"),
+            *("rheology.pressure.BarusViscosity", "rheology.pressure.RoelandsViscosity"),
+            *("rheology.shear.PowerLawViscosity", "rheology.shear.CarreauViscosity"),
+            *("rheology.shear.EyringViscosity", "rheology.density.DowsonHigginsonDensity"),
         ),
     ),
     Topic(

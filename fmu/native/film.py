@@ -142,6 +142,7 @@ def prepared_film(
         If the scene cannot be planned, or a force is too rough for a table.
     """
     made = plan(scene, accuracy)
+    _check_rheology(made)
     interface, loading, fraction = scene.interface, scene.loading, scene.meniscus.rewetting
     # Under a sphere whose cavity is followed, the film is one on a face with a crown.
     is_sphere = not interface.is_flat and not on_face(scene)
@@ -231,6 +232,24 @@ def _liquid_shape(prepared: PreparedScene[SeparationScene]) -> FilmShape:
     if on_face(prepared.scene) and not interface.is_flat:
         return between_flats(1, _INF, interface.rim_radius)
     return viscous_film(prepared)
+
+
+def _check_rheology(made: Plan) -> None:
+    """Refuse films that tables over the gap do not hold."""
+    scene, rheology = made.scene, made.prepared.rheology
+    if rheology is not None and rheology.computed:
+        raise PlanError(
+            "a native FMU has no form of a viscosity over pressure or shear: its tables are over "
+            'the gap alone; give ViscousForce(rheology="newtonian"), or run the scene with '
+            "ck.simulate"
+        )
+    is_limited = scene.effect(TensionLimit) is not None
+    if scene.meniscus.slips and is_limited and not scene.interface.is_flat:
+        raise PlanError(
+            "a native FMU cuts off the pressure under a sphere as in a film that does not slip: "
+            "leave TensionLimit or the slip lengths of the meniscus out, or run the scene with "
+            "ck.simulate"
+        )
 
 
 def _check_limits(common: _Common) -> None:

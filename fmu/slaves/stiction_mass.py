@@ -327,6 +327,12 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     against = [reason for reason, holds in needs.items() if not holds]
     if against:
         raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {_CURE}")
+    viscous, given = scene.effect(ViscousForce), scene.meniscus.liquid
+    if viscous is not None and viscous.rheology != "newtonian" and not given.is_newtonian:
+        raise PlanError(
+            "the Python FMU stiction-mass has one viscosity at all pressures and rates of shear; "
+            'give ViscousForce(rheology="newtonian"), or run the scene with ck.simulate'
+        )
     settled = _same_form(scene)
     liquid = scene.meniscus.liquid.at(scene.temperature)
     values = read(PLACES, settled, liquid) | tension_values(scene.effect(TensionLimit))
@@ -359,6 +365,8 @@ def _same_form(scene: SeparationScene) -> SeparationScene:
     for effect in effects_of(scene):
         if isinstance(effect, TensionLimit):
             effects += filter(None, (as_written(effect),))
+        elif isinstance(effect, ViscousForce):
+            effects.append(evolve(effect, rheology=None))  # of the one viscosity of the FMU
         elif not (is_exact and effect == Rupture()):  # the exact bridge breaks by itself
             effects.append(effect)
     interface = evolve(

@@ -191,6 +191,11 @@ EXTRA = {
         "value": "880 kg/m3",
         "slope": "-0.6 kg/m3/K",
     },
+    "BarusViscosity": {"pressure_coefficient": "20 1/GPa"},
+    "RoelandsViscosity": {"pressure_coefficient": "20 1/GPa"},
+    "PowerLawViscosity": {"exponent": 0.6},
+    "CarreauViscosity": {"exponent": 0.6},
+    "EyringViscosity": {"stress": "5 MPa"},
     "DugdaleAttraction": {"range": "1 nm"},
 }
 

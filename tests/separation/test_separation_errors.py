@@ -70,6 +70,8 @@ FIELDS = [
     (ck.FineRoughness(surface=ROUGH, width=1e-6), "pixels", "", WHOLE, [0, -1, 2.5, None]),
     (ck.Sphere(radius=1.0), "radius", "m", POSITIVE, [0.0, -1e-3, None]),
     (FILM, "volume", "m3", POSITIVE, [0.0, -1e-12]),
+    (FILM, "slip_length_lower", "m", NON_NEGATIVE, [-1e-9]),
+    (FILM, "slip_length_upper", "m", NON_NEGATIVE, [-1e-9]),
     (MOIST, "pressure", "Pa", "be negative and finite", [0.0, 1e5]),
     (HUMID, "relative_humidity", "", BETWEEN, [-0.1, 50.0]),
     (SUMMITS, "density", "1/m2", POSITIVE, [0.0, -1e12, None]),

@@ -118,7 +118,18 @@ def _of_liquid(scene: SeparationScene, liquid: LiquidState) -> Iterator[str]:
     if interface.meniscus is None:
         yield "interface.meniscus is missing: the liquid and its amount"
         return
-    meniscus = interface.meniscus
+    meniscus, viscous = interface.meniscus, scene.effect(ViscousForce)
+    if meniscus.slips:
+        yield (
+            "interface.meniscus.slip_length_lower and slip_length_upper [m] are not known between "
+            "deforming bodies; leave them out"
+        )
+    rheology = viscous.rheology if viscous is not None else "newtonian"
+    if rheology == "all" or not (rheology == "newtonian" or meniscus.liquid.is_newtonian):
+        yield (
+            "its film takes the viscosity at rest and ambient pressure, and the liquid has one "
+            'over pressure or shear; leave that out with ViscousForce(rheology="newtonian")'
+        )
     for effect in effects_of(scene):
         for item in liquid.missing(*effect.liquid_needs(scene)):
             yield f"{type(effect).__name__} needs {item}"

@@ -2,6 +2,7 @@
 
 base             Roles of an effect in the equation of motion: force, limit, end of the film.
 force_law        Prepared law of a force: F(h, v), its slopes and its range.
+rheology_view    Rheology of a film as the effects of a scene see it.
 prepared         Scene with its liquid at temperature and the shape of its film.
 film_shape       Shape of the film with an upright rim: radius and height over the gap.
 published_film   Film of the printed viscous forces: radius and height of the printed arc.

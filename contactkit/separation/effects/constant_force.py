@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import TYPE_CHECKING
 
@@ -29,7 +30,8 @@ def constant_force_time(
     Raises
     ------
     PlanError
-        If the scene has another force, which this does not know.
+        If the scene has another force, or a viscosity over pressure or shear, which this does not
+        know.
     """
     scene, viscosity = prepared.scene, prepared.liquid.viscosity
     forces = {type(e) for e in scene.effects if isinstance(e, SeparationForce)}
@@ -39,12 +41,17 @@ def constant_force_time(
             f"the time at a constant force knows the film and its meniscus, not {more}; impose "
             f"the force, ImposedForce(force=..., mass=...), to get the motion"
         )
-    wetting_tension = 0.0
+    rheology, wetting_tension = prepared.rheology, 0.0
+    if rheology is not None and not rheology.is_linear:
+        raise PlanError(
+            "the time at a constant force knows one viscosity at all pressures and rates of shear; "
+            "impose the force, ImposedForce(force=...), to get the motion"
+        )
     if MeniscusForce in forces:
         wetting_tension = prepared.liquid.surface_tension * prepared.wetting
     pull_each, loading = pull / film.menisci, scene.loading
-    if not scene.interface.is_flat:
-        return _sphere_time(prepared, film, viscous, wetting_tension, pull_each)
+    if not scene.interface.is_flat or rheology is not None:
+        return _time_of_law(prepared, film, viscous, wetting_tension, pull_each)
     turn = min(max(film.full_gap, loading.initial_gap), loading.final_gap)
     time = 0.0
     if loading.initial_gap < turn:
@@ -58,18 +65,21 @@ def constant_force_time(
     return time
 
 
-def _sphere_time(
+def _time_of_law(
     prepared: PreparedScene[SeparationScene],
     film: FilmShape,
     viscous: ForceLaw,
     wetting_tension: float,
     pull: float,
 ) -> float:
+    """Time [s] of a force that is proportional to the speed, by quadrature."""
     from scipy.integrate import quad
 
     loading = prepared.scene.loading
 
     def laplace(gap: float) -> float:
+        if math.isinf(film.sphere_radius):
+            return math.pi * film.radius(gap) ** 2 * wetting_tension / gap
         wetted = 1.0 - gap / film.height(gap)
         return 2.0 * math.pi * film.sphere_radius * wetting_tension * wetted
 
@@ -81,5 +91,7 @@ def _sphere_time(
         return gap * viscous.force(gap, 1.0) / film.menisci / (pull - laplace(gap))
 
     low, high = math.log(loading.initial_gap), math.log(loading.final_gap)
-    value, _ = quad(integrand, low, high, epsabs=0.0, epsrel=1e-11, limit=500)
-    return float(value)
+    kinks = [math.log(kink) for kink in viscous.kinks]
+    marks = [low, *(kink for kink in kinks if low < kink < high), high]
+    pieces = itertools.pairwise(marks)
+    return sum(quad(integrand, *one, epsabs=0.0, epsrel=1e-11, limit=500)[0] for one in pieces)

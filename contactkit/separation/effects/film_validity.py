@@ -8,7 +8,7 @@ what a cavitated film does as it closes depends on its cavity.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...lubrication import dimensionless as numbers
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .film_shape import FilmShape
     from .prepared import PreparedScene
 
-__all__ = ["film_numbers"]
+__all__ = ["apparent_viscosity", "film_numbers"]
 
 _MOST = 0.05  # relative change of volume or of gap, and weight over pressure
 _RIGID = "no body has a solid (a Material or a Stack): the faces are rigid"
@@ -78,11 +78,12 @@ def _loads(
     strength: float,
 ) -> Iterator[_Load]:
     is_flat, face = math.isinf(film.sphere_radius), prepared.face_film
-    viscosity = prepared.liquid.viscosity
+    viscosity = apparent_viscosity(prepared)
     for gap, speed in path:
         if speed < 0.0 and math.isfinite(strength):
             continue
-        rate, radius, height = viscosity * abs(speed), film.radius(gap), film.height(gap)
+        rate = viscosity(gap, speed) * abs(speed)
+        radius, height = film.radius(gap), film.height(gap)
         if face is not None:
             pressure, spread = rate * face.onset(gap), radius
             deflection = 4.0 / 3.0 * pressure * radius
@@ -99,6 +100,17 @@ def _loads(
         if is_cavitated:  # a cavity may reach close to the rim
             pressure, deflection = strength, min(deflection, 2.0 * strength * spread)
         yield _Load(gap, abs(speed), height, spread, pressure, deflection, is_cavitated)
+
+
+def apparent_viscosity(
+    prepared: PreparedScene[SeparationScene],
+) -> Callable[[float, float], float]:
+    """Viscosity [Pa.s] of a Newtonian film of the same force, over gap [m] and speed [m/s]."""
+    viscosity, rheology = prepared.liquid.viscosity, prepared.rheology
+    film = rheology.film if rheology is not None else None
+    if film is None:
+        return lambda gap, speed: viscosity
+    return lambda gap, speed: viscosity * film.force_ratio(gap, speed)
 
 
 def _between_flats(rate: float, gap: float, radius: float) -> float:
@@ -128,6 +140,16 @@ def _compression(
 ) -> ValidityNumber:
     modulus = prepared.liquid.given("bulk_modulus")
     largest = max((load.pressure for load in loads), default=None)
+    law = prepared.scene.meniscus.liquid.pressure_density
+    if law is not None and largest is not None:
+        return ValidityNumber(
+            name="change of the density over pressure",
+            value=abs(law.relative_change(-largest)),
+            high=_MOST,
+            detail="the film is taken for incompressible; its density would change by this "
+            "fraction",
+            source="Dowson and Higginson 1966",
+        )
     known = modulus is not None and largest is not None
     return ValidityNumber(
         name="pressure over bulk modulus",

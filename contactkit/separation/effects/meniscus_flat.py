@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 from ...as_published.printed import common as printed
 from ...capillary.arc import flat as arc_flat
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene, SlidingScene
     from .prepared import PreparedScene
 
-    Prepared = PreparedScene[SeparationScene] | PreparedScene[SlidingScene]
+    Prepared: TypeAlias = PreparedScene[SeparationScene] | PreparedScene[SlidingScene]
 
 __all__ = [
     "PrintedRadius",

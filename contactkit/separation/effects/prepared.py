@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ...liquids.liquid import LiquidState
     from ...scene.scenes import SeparationScene, SlidingScene
     from ..face.film import FaceFilm
+    from .rheology_view import FilmRheologyView
 
 __all__ = [
     "Angles",
@@ -58,6 +59,8 @@ class PreparedScene(Generic[S_co]):
     liquid: LiquidState
     film: FilmShape
     liquid_pressure: float | None
+    rheology: FilmRheologyView | None = None
+    """Rheology of the film, which a plan adds; None for a Newtonian liquid that does not slip."""
 
     @property
     def angles(self) -> Angles:
@@ -99,7 +102,9 @@ def with_fraction(
         return prepared
     less = evolve(meniscus, volume=fraction * meniscus.volume)
     scene = evolve(scene, interface=evolve(scene.interface, meniscus=less))
-    return prepare_scene(scene, prepared.accuracy, prepared.liquid)
+    made = prepare_scene(scene, prepared.accuracy, prepared.liquid)
+    rheology = prepared.rheology
+    return made if rheology is None else evolve(made, rheology=rheology.again(made))
 
 
 S = TypeVar("S", bound="SeparationScene | SlidingScene")

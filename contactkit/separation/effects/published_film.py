@@ -7,7 +7,7 @@ the arc of Eqs. (3.37) to (3.40), and its volume follows. From a volume they are
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from ...errors import InfeasibleError
 from .film_shape import FilmShape, between_flats, under_sphere
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene, SlidingScene
     from .prepared import PreparedScene
 
-    Prepared = PreparedScene[SeparationScene] | PreparedScene[SlidingScene]
+    Prepared: TypeAlias = PreparedScene[SeparationScene] | PreparedScene[SlidingScene]
 
 __all__ = ["published_film"]
 

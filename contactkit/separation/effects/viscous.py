@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from attrs import field, frozen
 
-from ...errors import DescriptionError, NotSimulatedError
+from ...errors import DescriptionError, NotSimulatedError, PlanError
 from ...lubrication import dimensionless as numbers
 from ...lubrication import film_limits
 from ...lubrication import squeeze_film as squeeze
@@ -20,10 +20,10 @@ from ...validators import choice, finite, optional, positive
 from ...validity import ValidityNumber
 from ..cavity.law import Cavitation, CavityLaw
 from ..face.shape import closed_form, on_face, shape_of
-from .base import CAVITY, FilmLimit, ForcePart, Limiter, LimitKind, SeparationForce
+from .base import CAVITY, FilmLimit, FilmStatus, ForcePart, Limiter, LimitKind, SeparationForce
 from .constant_force import constant_force_time
 from .film_shape import FilmShape, film_shape, needs_extent
-from .film_validity import film_numbers
+from .film_validity import apparent_viscosity, film_numbers
 from .force_law import ForceLaw, law_impulse
 from .meniscus import MeniscusForce
 from .published_film import published_film
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from ...as_published.arguments import PublishedValue
     from ...scene.scenes import SeparationScene
     from ..face.film import FaceFilm
+    from ..rheology.heating import HeatedFilm
     from .base import Curve, PlanView, RunView
     from .prepared import PreparedScene
 
@@ -42,6 +43,7 @@ __all__ = [
     "ViscousPart",
     "keeps_radius",
     "viscous_film",
+    "viscous_law",
 ]
 
 
@@ -71,9 +73,16 @@ class ViscousPart(ForcePart):
         Raises
         ------
         NotSimulatedError
-            If the film loses liquid under limits: the way decides, and was not taken without them.
+            If the film loses liquid under limits, or its viscosity depends on shear or pressure:
+            the way decides, and was not taken without them.
         """
         found = self.result.impulses.get("newtonian_impulse")
+        rheology = self.result.plan.prepared.rheology
+        if found is None and rheology is not None and not rheology.is_linear:
+            raise NotSimulatedError(
+                "no impulse without limits of a film whose viscosity depends on shear or pressure: "
+                "it depends on the motion; simulate it without the limits"
+            )
         if found is None:
             raise NotSimulatedError(
                 "no impulse without limits of a film that loses liquid: it depends on the motion; "
@@ -102,6 +111,29 @@ class ViscousPart(ForcePart):
             )
         return self.impulse / time
 
+    @property
+    def temperature_rise(self) -> float:
+        """Bound on the temperature rise of the film over the run [K].
+
+        The smaller of two: all work stays in the liquid, and walls of constant temperature take up
+        all heat.
+
+        Raises
+        ------
+        NotSimulatedError
+            If the liquid has neither a `heat_capacity` with a density, nor a
+            `thermal_conductivity`.
+        """
+        from ..rheology.heating import temperature_rise
+
+        found = temperature_rise(_heated(self.result.plan.prepared), _wet_path(self.result))
+        if found is None:
+            raise NotSimulatedError(
+                "no temperature rise of the film: give liquid.thermal_conductivity [W/m/K], or "
+                "liquid.heat_capacity [J/kg/K] and density [kg/m3]"
+            )
+        return found
+
     def time_at_constant_force(self, force: float | None = None) -> float:
         """Time [s] that a constant pull [N] takes to open the gap; inf if it never does.
 
@@ -126,12 +158,24 @@ class ViscousPart(ForcePart):
                 hint="give the pull here, or as ImposedForce(force=...)",
             )
         prepared = plan.prepared
-        return constant_force_time(prepared, viscous_film(prepared), _law(prepared), force)
+        return constant_force_time(prepared, viscous_film(prepared), viscous_law(prepared), force)
+
+
+def _wet_path(result: RunView) -> list[tuple[float, float]]:
+    """Gaps [m] and speeds [m/s] of a run while its film spans the gap."""
+    gaps, loading = result.gap, result.plan.scene.loading
+    if isinstance(loading, ImposedTime):
+        whole = gaps <= result.plan.film.end
+        speeds = (gaps[-1] - gaps[0]) / loading.time + 0.0 * gaps
+    else:
+        whole, speeds = result["film_status"] != FilmStatus.BROKEN, result["speed"]
+    whole = whole & (gaps > 0.0)
+    return list(zip(gaps[whole].tolist(), speeds[whole].tolist(), strict=True))
 
 
 @frozen(kw_only=True)
 class ViscousForce(SeparationForce):
-    """Resistance of a Newtonian film to being drawn out, by Reynolds' equation.
+    """Viscous force of a film that is drawn out, by Reynolds' equation.
 
     Parameters
     ----------
@@ -144,6 +188,11 @@ class ViscousForce(SeparationForce):
         those of the arc of the source, which ``MeniscusForce(profile="as-published")`` has as
         well, and not those of an upright rim: of ``Meniscus.from_radius(profile="arc")`` the
         radius that is given. That is up to 5 % of the force at a radius of 50 gaps.
+    rheology : {"all", "newtonian"}, optional
+        What is computed of a liquid whose viscosity depends on pressure or shear: all of it, or
+        nothing. None: the parts that change the force by 1 % or more on the motion that the loading
+        lets expect. The plan says what each part does, and a result how much is left out. Slip at
+        the walls is always computed.
 
     Notes
     -----
@@ -176,6 +225,9 @@ class ViscousForce(SeparationForce):
         default="volume-conserving",
         validator=choice("volume-conserving", "flooded", "as-published"),
     )
+    rheology: Literal["all", "newtonian"] | None = field(
+        default=None, validator=optional(choice("all", "newtonian"))
+    )
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -196,7 +248,16 @@ class ViscousForce(SeparationForce):
             by = "finite volumes" if known is None else known.law.source
             rough = "flow factors of a rough gap: homogenisation; Patir and Cheng 1978"
             return (f"Reynolds 1886: {by}", *((rough,) if shape.roughness is not None else ()))
-        return (flats,) if scene.interface.is_flat else (sphere,)
+        return (flats if scene.interface.is_flat else sphere, *self._cites_of_liquid(scene))
+
+    def _cites_of_liquid(self, scene: SeparationScene) -> tuple[str, ...]:
+        """Sources of the rheology that the liquid of a scene gives, and of its slip."""
+        liquid = scene.meniscus.liquid
+        laws = (liquid.pressure_viscosity, liquid.shear_viscosity)
+        given = () if self.rheology == "newtonian" else tuple(law for law in laws if law)
+        slip = ("slip of a squeezed film: Vinogradova 1995",) if scene.meniscus.slips else ()
+        flow = ("flux of any flow law: Rabinowitsch 1929",) if given or slip else ()
+        return (*(law.cite for law in given), *flow, *slip)
 
     @property
     def takes_solids(self) -> bool:
@@ -213,7 +274,7 @@ class ViscousForce(SeparationForce):
         return ("viscosity", "surface_tension") if at_pressure else ("viscosity",)
 
     def proportional_to(self, scene: SeparationScene) -> str:
-        """See `SeparationForce.proportional_to`."""
+        """See `SeparationForce.proportional_to`; a native FMU refuses a computed rheology."""
         return "viscosity"
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
@@ -226,11 +287,13 @@ class ViscousForce(SeparationForce):
                 f"interface.meniscus.volume [m3] with closure={self.closure!r}: at a fixed "
                 f'pressure the rim keeps its height (or closure="volume-conserving")',
             )
+        if scene.meniscus.slips and self.takes_printed():
+            missing += ("no slip of the liquid for the equations as published",)
         return missing + needs_extent(scene)
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> ForceLaw:
         """See `SeparationForce.prepare`."""
-        return _law(prepared)
+        return viscous_law(prepared)
 
     def equations(self, scene: SeparationScene) -> str:
         """See `SeparationEffect.equations`.
@@ -300,8 +363,11 @@ def _face_law(film: FaceFilm, viscosity: float) -> ForceLaw:
     return ForceLaw(force, rate="proportional", exponent=film.exponent, impulse=impulse)
 
 
-def _law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:
-    face = prepared.face_film
+def viscous_law(prepared: PreparedScene[SeparationScene]) -> ForceLaw:
+    """Viscous force of a scene, without limits of the liquid."""
+    rheology, face = prepared.rheology, prepared.face_film
+    if rheology is not None and rheology.film is not None:
+        return rheology.film.force_law()
     if face is not None:
         return _face_law(face, prepared.liquid.viscosity)
     return _law_of(viscous_film(prepared), prepared.liquid.viscosity)
@@ -541,6 +607,7 @@ class TensionLimit(FilmLimit):
         """See `FilmLimit.cavity_law`."""
         if not self.follows_cavity:
             return None
+        _refuse_rheology(prepared, self.cavity)
         if prepared.face_film is not None:
             return self._face_cavity(prepared, prepared.face_film)
         film = viscous_film(prepared)
@@ -556,6 +623,10 @@ class TensionLimit(FilmLimit):
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """See `FilmLimit.prepare`."""
+        if prepared.rheology is not None and prepared.rheology.film is not None:
+            if self.cavity == "reynolds":
+                _refuse_rheology(prepared, self.cavity)
+            return prepared.rheology.film.limiter()
         film, drop = viscous_film(prepared), self.tension
         n, radius, height = film.menisci, film.radius, film.height
         disc = (
@@ -575,6 +646,19 @@ class TensionLimit(FilmLimit):
             )
 
         return between_flats if math.isinf(film.sphere_radius) else under_sphere
+
+
+def _refuse_rheology(prepared: PreparedScene[SeparationScene], cavity: str) -> None:
+    """Refuse a cavity whose edge is known in a Newtonian film that does not slip alone."""
+    if prepared.rheology is None or prepared.rheology.film is None:
+        return
+    cure = "leave the slip lengths of the meniscus out"
+    if prepared.rheology.computed:
+        cure = 'leave the rheology out with ViscousForce(rheology="newtonian")'
+    raise PlanError(
+        f'TensionLimit(cavity="{cavity}") knows the edge of a cavity in a Newtonian film that does '
+        f'not slip; take cavity="truncated", or {cure}'
+    )
 
 
 @frozen(kw_only=True)
@@ -617,7 +701,19 @@ class ShearLimit(FilmLimit):
         return ()
 
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
-        """See `FilmLimit.prepare`."""
+        """See `FilmLimit.prepare`.
+
+        Raises
+        ------
+        PlanError
+            If the film has a rheology of its own, or slips.
+        """
+        if prepared.rheology is not None and prepared.rheology.film is not None:
+            raise PlanError(
+                "ShearLimit bounds the stress of a Newtonian film that does not slip; leave it out "
+                "and give liquid.shear_viscosity = EyringViscosity(stress=...), or leave the "
+                'rheology out with ViscousForce(rheology="newtonian")'
+            )
         film, strength = viscous_film(prepared), self.strength
         n, radius, height = film.menisci, film.radius, film.height
 
@@ -684,15 +780,15 @@ def _erratum(plan: PlanView) -> PublishedValue:
 def _validity(
     prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
 ) -> tuple[ValidityNumber, ...]:
-    film, viscosity = prepared.film, prepared.liquid.viscosity
-    density = prepared.liquid.given("density")
+    film, density = prepared.film, prepared.liquid.given("density")
+    viscosity = apparent_viscosity(prepared)
     has_end = math.isfinite(film.height(path[0][0]))
     reynolds = slenderness = None
     if has_end:
         slenderness = min(numbers.slenderness(film.radius(h), film.height(h)) for h, _ in path)
     if has_end and density is not None:
         reynolds = max(
-            numbers.reynolds_number(density, v, film.height(h), viscosity) for h, v in path
+            numbers.reynolds_number(density, v, film.height(h), viscosity(h, v)) for h, v in path
         )
     inertia = _size(film, reynolds, numbers.inertia_fraction)
     rim = _size(film, slenderness, numbers.rim_fraction)
@@ -715,7 +811,28 @@ def _validity(
         ),
         *film_numbers(prepared, viscous_film(prepared), path, _strength(prepared.scene)),
         *_grid_error(prepared),
+        *_rheology_numbers(prepared, path),
     )
+
+
+def _rheology_numbers(
+    prepared: PreparedScene[SeparationScene], path: Sequence[tuple[float, float]]
+) -> tuple[ValidityNumber, ...]:
+    """Ranges of the rheology of the liquid, and the heat of the film."""
+    rheology, liquid = prepared.rheology, prepared.scene.meniscus.liquid
+    found = rheology.numbers(prepared, path) if rheology is not None else ()
+    if liquid.heat_capacity is None:
+        return found
+    from ..rheology.heating import heating_number
+
+    return (*found, heating_number(_heated(prepared), path))
+
+
+def _heated(prepared: PreparedScene[SeparationScene]) -> HeatedFilm:
+    from ..rheology.heating import HeatedFilm
+
+    law, strength = viscous_law(prepared), _strength(prepared.scene)
+    return HeatedFilm(prepared, viscous_film(prepared), law, strength)
 
 
 def _grid_error(prepared: PreparedScene[SeparationScene]) -> tuple[ValidityNumber, ...]:

@@ -231,8 +231,12 @@ def moving_mass(plan: Plan) -> float:
     loading = plan.scene.imposed_force
     if loading.mass is not None:
         return loading.mass
-    given = plan.film.viscous_impulse(loading.initial_gap, loading.final_gap)
+    ends, film = (loading.initial_gap, loading.final_gap), plan.film
     pull = max(abs(loading.force), 1e-300)
+    given = film.viscous_impulse(*ends)
+    if not film.has_viscous_impulse:
+        pull = abs(loading.force) or 1.0  # at rest any mass will do
+        given = pull * film.opening_time(*ends, pull)
     return 1e-14 * given * (given / pull) / (loading.final_gap - loading.initial_gap)
 
 

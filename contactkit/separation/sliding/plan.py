@@ -151,6 +151,16 @@ def _check_effects(scene: SlidingScene, liquid: LiquidState) -> None:
         problems.append(
             "a sliding scene needs interface.meniscus.volume [m3] in place of its pressure"
         )
+    if scene.meniscus.slips:
+        problems.append(
+            "interface.meniscus.slip_length_lower and slip_length_upper [m] are read by the "
+            "ViscousForce of a SeparationScene: leave them out"
+        )
+    if scene.meniscus.liquid.shear_viscosity is not None and CouetteForce in kinds:
+        problems.append(
+            "CouetteForce takes the viscosity at rest, and the liquid has a shear_viscosity: leave "
+            'it out, or list ShearLimit(law="eyring", strength=...)'
+        )
     for effect in scene.effects:
         if isinstance(effect, SlidingForce):
             lacks = (*liquid.missing(*effect.liquid_needs(scene)), *effect.lacks(scene))
