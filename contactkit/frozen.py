@@ -1,10 +1,12 @@
-"""A mapping that cannot be changed, but be copied and sent to another process."""
+"""Parts of frozen objects: a mapping that cannot be changed, and equality of fields that hold arrays."""
 
 from __future__ import annotations
 
 from typing import Any, NoReturn, TypeVar
 
-__all__ = ["FrozenDict"]
+from attrs import cmp_using
+
+__all__ = ["SAME_NUMBERS", "FrozenDict"]
 
 _K = TypeVar("_K")
 _V = TypeVar("_V")
@@ -32,3 +34,17 @@ class FrozenDict(dict[_K, _V]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (dict(self),)
+
+
+def _same(one: Any, other: Any) -> bool:
+    import numpy as np
+
+    return one is other or bool(np.array_equal(one, other))
+
+
+SAME_NUMBERS = cmp_using(eq=_same)
+"""Equality of a field that holds an array, ``field(eq=SAME_NUMBERS, hash=False)``.
+
+Without it a class with an array would have to leave out its equality, and then has that of its base
+class, by which all of its objects are equal.
+"""

@@ -9,13 +9,12 @@ import re
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from attrs import Attribute, cmp_using, fields
+from attrs import Attribute, fields
 
 from .errors import DescriptionError, nearest
 from .units import parse_quantity
 
 __all__ = [
-    "SAME_NUMBERS",
     "LARGEST",
     "LARGEST_FRICTION",
     "Described",
@@ -68,20 +67,6 @@ def _reader(converter: Callable[[Any], Any] | None, unit: str, name: str) -> Cal
     if converter is None:
         return lambda value: _read(value, unit, name)
     return lambda value: converter(_read(value, unit, name))
-
-
-def _same(one: Any, other: Any) -> bool:
-    import numpy as np
-
-    return one is other or bool(np.array_equal(one, other))
-
-
-SAME_NUMBERS = cmp_using(eq=_same)
-"""Equality of a field that holds an array, ``field(eq=SAME_NUMBERS, hash=False)``.
-
-Without it a class with an array would have to leave out its equality, and then has that of its base
-class, by which all of its objects are equal.
-"""
 
 
 _OPTIONAL_TEXT = ("str | None", str | None)

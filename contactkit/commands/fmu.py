@@ -73,9 +73,10 @@ def build(what: str, settings: tuple[str, ...], out: Path, overwrite: bool, **fo
 @fmu.command(cls=options.Command)
 @click.argument("file", type=click.Path(path_type=Path))
 def check(file: Path) -> None:
-    """Check an FMU by fmpy, and run it against the results inside it (FMI-LS-REF).
+    """Check an FMU, and run it against the results in it.
 
-    FILE is an FMU, of contactkit or not. It is run: take one of people you trust.
+    FILE is an FMU, of contactkit or not; it is checked by fmpy, and its results are as FMI-LS-REF has
+    them. It is run: take one of people you trust.
     """
     from ..errors import ContactkitError
     from ..fmu.contents.reference_check import check_references
@@ -122,7 +123,7 @@ def system(scene: str, out: Path | None, native: bool, overwrite: bool) -> None:
 @options.file(".mo", "Modelica file to write; its name is that of the package.", required=True)
 @options.overwrite
 def modelica(file: Path, out: Path, overwrite: bool) -> None:
-    """Write a Modelica wrapper of an FMU, with flanges of the standard library."""
+    """Write a Modelica wrapper of an FMU, with flanges."""
     from ..app.output import check_file, enter
     from ..fmu.modelica.package import write_modelica
 

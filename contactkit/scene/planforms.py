@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
+from ..frozen import SAME_NUMBERS
 from ..reading.named_files import Contents
 from ..units import parse_quantity, si
 from ..validators import (
-    SAME_NUMBERS,
     Described,
     as_pair,
     as_path,

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 from attrs import Attribute, field, frozen
 
 from ..errors import DescriptionError
+from ..frozen import SAME_NUMBERS
 from ..reading.named_files import Contents
 from ..units import si
 from ..validators import (
-    SAME_NUMBERS,
     as_pair,
     as_path,
     as_tuple,

@@ -167,7 +167,7 @@ class Viscoelasticity(LoadHistory[ViscoelasticityPart]):
 
     sources = (
         "elastic-viscoelastic correspondence: Lee 1955; contact: Lee and Radok 1960, Ting 1966",
-        "recursive convolution of a Prony series, pressure linear in a step",
+        "recursive convolution of a Prony series, pressure linear in a step: own formulation",
     )
 
     @maps_at.validator
