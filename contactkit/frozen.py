@@ -1,4 +1,4 @@
-"""Parts of frozen objects: a mapping that cannot be changed, and equality of fields that hold arrays."""
+"""Parts of frozen objects: a mapping that cannot be changed, equality of fields with arrays."""
 
 from __future__ import annotations
 

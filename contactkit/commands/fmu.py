@@ -75,8 +75,8 @@ def build(what: str, settings: tuple[str, ...], out: Path, overwrite: bool, **fo
 def check(file: Path) -> None:
     """Check an FMU, and run it against the results in it.
 
-    FILE is an FMU, of contactkit or not; it is checked by fmpy, and its results are as FMI-LS-REF has
-    them. It is run: take one of people you trust.
+    FILE is an FMU, of contactkit or not. Fmpy checks it; the results are as FMI-LS-REF has them. It
+    is run: take one of people you trust.
     """
     from ..errors import ContactkitError
     from ..fmu.contents.reference_check import check_references
