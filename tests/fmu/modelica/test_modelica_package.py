@@ -166,10 +166,13 @@ end Pulled;
 @pytest.mark.slow
 def test_a_film_in_modelica_moves_as_the_fmu_does(film, shelf, compiled):
     """The wrapper around Stefan's law, against model exchange of the FMU of that film."""
-    exchange = pytest.importorskip("exchange_host")
+    import exchange_host as exchange
+
     text = modelica_package(film(), "Film")
     inside = STEFAN.replace("Film.", "").replace("Pulled", "Moved").strip()
-    text = text.replace("end Film;\n", f"{inside}\nend Film;\n")
+    before = "  annotation (uses("  # of the package: its last element
+    assert text.count(before) == 1
+    text = text.replace(before, f"{inside}\n{before}")
     found = compiled(text, "Film.Moved").simulate(t=(0.0, 3e-4), dt=1e-6)
     held = exchange.Film(shelf.unpacked(film()), gamma=0.0)
 
@@ -178,7 +181,7 @@ def test_a_film_in_modelica_moves_as_the_fmu_does(film, shelf, compiled):
 
     body = exchange.Pulled(held, acceleration, gap=20e-6)
     body.run(3e-4)
-    assert body.state[0] > 2.0 * 20e-6
+    assert body.state[0] > 1.1 * 20e-6
     assert found["mass.s"][-1] == pytest.approx(body.state[0], rel=1e-3)
     assert found["film.f"][-1] == pytest.approx(held.get("F"), rel=5e-3)
     held.close()

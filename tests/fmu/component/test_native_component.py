@@ -204,6 +204,7 @@ def test_output_derivatives(tmp_path):
     assert instance.get_output_derivatives([(pull, 2)]) == "discard"
 
 
+@pytest.mark.exhaustive
 def test_many_instances_leave_no_memory_behind(film):
     """2000 instances with states, one after the other: 1024 are possible at a time."""
     host = Host(film)
