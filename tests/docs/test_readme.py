@@ -44,10 +44,10 @@ SLOW = (
 
 
 def with_blocks(language):
-    """Pages with blocks of a language; those about FMUs take long, two others longest."""
+    """Pages with blocks of a language; those about FMUs take long, three pages longest."""
 
     def marks(page):
-        if page in (ROOT / "docs" / "adhesion.md", ROOT / "docs" / "head-disk-detail.md"):
+        if page.stem in ("adhesion", "head-disk-detail", "fmu-native"):
             return [pytest.mark.exhaustive]
         return [pytest.mark.slow] if "fmu" in page.name or page.stem in SLOW else []
 

@@ -292,6 +292,7 @@ def covered(given, noisy, n):
     return hits
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_intervals_hold_the_truth_in_68_of_100_fits():
     """200 fits of viscosity and shift at 1 % of noise, estimated: 2 standard deviations of 6.6."""

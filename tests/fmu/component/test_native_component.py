@@ -86,6 +86,7 @@ def test_it_asks_for_its_tables_once_and_for_nothing_else(mass):
     assert host.log == []
 
 
+@pytest.mark.exhaustive
 def test_without_its_tables_there_is_no_instance_and_the_host_hears_why(mass):
     host = Host(mass)
     tables = host.files.pop("film.bin")

@@ -18,7 +18,7 @@ pytestmark = [
 ]
 
 CALLS = 150
-SEEDS = range(4)
+SEEDS = range(2)
 # The film of a wet tip is prepared anew, for seconds, for each set of its parameters.
 FEW = {"tip-contact": range(1)}
 
