@@ -142,10 +142,7 @@ def check_differentiable(plan: ContactPlan, of: str) -> None:
 def _only_rises(plan: ContactPlan, history: LoadHistory[Any]) -> bool:
     """Whether each load of a history exceeds those before it."""
     loadings = (*history.loadings(), plan.scene.loading)
-    loads = [0.0]
-    for one in loadings:
-        pressure = one.mean_pressure(plan.grid.area)
-        loads.append((one.imposed_approach if pressure is None else pressure) or 0.0)
+    loads = [0.0, *(one.imposed_over(plan.grid.area) for one in loadings)]
     return all(before < after for before, after in pairwise(loads))
 
 

@@ -12,7 +12,7 @@ from ..scene.rough_surfaces import Heights
 from .effects.base import FixedHardness, HardnessLaw, SolvedContact
 from .effects.plastic_history import PlasticHistory, PlasticHistoryPart
 from .effects.plasticity import AT_HARDNESS, HardnessLimit
-from .outer.load import solve_loaded
+from .outer.load import solve_loaded, target_at
 from .outer.step import Solved, Step
 from .outer.unknown import Target
 from .plan import ContactPlan
@@ -187,17 +187,13 @@ def residual_surface(result: ContactResult) -> Heights:
 
 def _targets(plan: ContactPlan, history: PlasticHistory) -> list[Target]:
     """Loads or approaches of the steps."""
-    area, touch = plan.grid.area, plan.prepared.first_touch
     values, before = list[float](), 0.0
     for loading in (*history.loadings(), plan.scene.loading):
-        pressure = loading.mean_pressure(area)
-        after = (loading.imposed_approach if pressure is None else pressure) or 0.0
+        after = loading.imposed_over(plan.grid.area)
         values += [before + (after - before) * (i / history.steps) for i in range(1, history.steps)]
         values.append(after)
         before = after
-    if plan.mean_pressure is None:
-        return [Target(None, touch + one) for one in values]
-    return [Target(one, None) for one in values]
+    return [target_at(plan, one) for one in values]
 
 
 def _remembering(plan: ContactPlan, state: _State) -> HardnessLaw | None:

@@ -20,12 +20,11 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 import numpy as np
 from attrs import evolve
 
-from ..scene.loading import Approach
 from .effects.elasticity import bodies_of, layers_of
 from .effects.partial_slip import PartialSlip
 from .effects.plastic_history import PlasticHistory
 from .outer.displacement import displacement_scale
-from .outer.load import solve_loaded
+from .outer.load import solve_loaded, target_at
 from .outer.step import Solved, Step
 from .outer.unknown import Held, HeldContact, Next, Target, Unknown
 from .plan import ContactPlan
@@ -81,11 +80,8 @@ class _Run:
 
     def target(self, fraction: float) -> Target:
         """Load or approach at a fraction of that of the scene."""
-        loading, load = self.plan.scene.loading, self.plan.mean_pressure
-        if isinstance(loading, Approach):
-            touch = self.plan.prepared.first_touch
-            return Target(None, touch + fraction * loading.approach)
-        return Target(fraction * (load or 0.0), None)
+        plan = self.plan
+        return target_at(plan, fraction * plan.scene.loading.imposed_over(plan.grid.area))
 
     def targets(self, steps: int) -> list[Target]:
         """Loads or approaches of a number of steps of pressing."""

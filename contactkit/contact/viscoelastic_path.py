@@ -9,17 +9,14 @@ from attrs import evolve
 
 from .creep_response import CreepHistory, CreepResponse
 from .effects.viscoelasticity import Viscoelasticity, ViscoelasticityPart
-from .outer.load import solve_loaded
+from .outer.load import solve_loaded, target_at
 from .outer.step import Solved, Step
-from .outer.unknown import Target
 from .plan import ContactPlan
 from .prepared import Once, PreparedInterface
 from .work import WorkCounter
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from ..scene.loading import ContactLoading
 
     Map = NDArray[np.float64]
 
@@ -63,7 +60,7 @@ def follow_loads(plan: ContactPlan, effect: Viscoelasticity, counter: WorkCounte
     for number, instant in enumerate(_instants(plan, effect), 1):
         interface = history.interface_after(instant.duration)
         step = Step(_on(plan, interface), counter)
-        target = _target(plan, instant.value)
+        target = target_at(plan, instant.value)
         solved = solve_loaded(step, target if last is None else last.near(target))
         displaced = plan.heights - interface.heights
         history.advance(instant.duration, solved.contact.pressure)
@@ -89,7 +86,7 @@ def _instants(plan: ContactPlan, effect: Viscoelasticity) -> list[_Instant]:
     if not before:  # held from the start
         times = times if times[0] == 0.0 else (0.0, *times)
         before = (plan.scene.loading,) * (len(times) - 1)
-    loads = [_value(plan, one) for one in (*before, plan.scene.loading)]
+    loads = [one.imposed_over(plan.grid.area) for one in (*before, plan.scene.loading)]
     found, last, value = list[_Instant](), 0.0, 0.0
     for time, load in zip(times, loads, strict=True):
         n, span = effect.steps if time > last else 1, time - last
@@ -98,17 +95,6 @@ def _instants(plan: ContactPlan, effect: Viscoelasticity) -> list[_Instant]:
         found.append(_Instant(time, span / n, load))
         last, value = time, load
     return found
-
-
-def _value(plan: ContactPlan, loading: ContactLoading) -> float:
-    pressure = loading.mean_pressure(plan.grid.area)
-    return float((loading.imposed_approach if pressure is None else pressure) or 0.0)
-
-
-def _target(plan: ContactPlan, value: float) -> Target:
-    if plan.mean_pressure is None:
-        return Target(None, plan.prepared.first_touch + value)
-    return Target(value, None)
 
 
 def _row(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from importlib import resources
 from pathlib import Path
@@ -279,34 +279,40 @@ def _attrs_class(kind: type, more: tuple[str, ...] = ()) -> Callable[[Any, Any],
             for key in value
             if key not in known
         ]
-        try:
-            made = inner({key: value[key] for key in value if key in known}, target)
-        except cattrs.ClassValidationError as error:
-            raise _with_others(error, unknown, kind, value) from None
-        if len(unknown) == 1:
-            raise unknown[0]
-        if unknown:
-            raise cattrs.ClassValidationError("unknown keys", unknown, kind)
-        return made
+        return _made(
+            lambda: inner({key: value[key] for key in value if key in known}, target),
+            unknown,
+            kind,
+            lambda: _refused(kind, value),
+        )
 
     return hook
 
 
-def _with_others(
-    error: cattrs.ClassValidationError,
-    unknown: list[DescriptionError],
+def _made(
+    make: Callable[[], Any],
+    unknown: Sequence[Exception],
     kind: type,
-    value: Mapping[str, Any],
-) -> cattrs.ClassValidationError:
-    """Add the other mistakes of a table to the first: unknown keys, and what fields refuse.
+    more: Callable[[], Iterable[Exception]] = tuple,
+) -> Any:
+    """Make the object of a table, or refuse all that is wrong with it.
 
-    Beside an unknown key, one that is missing may be the same one.
+    Beside an unknown key, one that is missing may be the same one. `more` finds what the first
+    mistake kept from being seen.
     """
-    found: list[Exception] = list(unknown)
-    found += [one for one in error.exceptions if not (unknown and isinstance(one, KeyError))]
-    said = {str(one) for one in found}
-    found += [one for one in _refused(kind, value) if str(one) not in said]
-    return cattrs.ClassValidationError(error.message, found, kind)
+    try:
+        made = make()
+    except cattrs.ClassValidationError as error:
+        found = [one for one in error.exceptions if not (unknown and isinstance(one, KeyError))]
+        found = [*unknown, *found]
+        said = {str(one) for one in found}
+        found += [one for one in more() if str(one) not in said]
+        raise cattrs.ClassValidationError(error.message, found, kind) from None
+    if len(unknown) == 1:
+        raise unknown[0]
+    if unknown:
+        raise cattrs.ClassValidationError("unknown keys", unknown, kind)
+    return made
 
 
 def _refused(kind: type, value: Mapping[str, Any]) -> Iterator[DescriptionError]:
@@ -393,15 +399,7 @@ def _loading(value: Any, wanted: type[Loading]) -> Loading:
         hint += nearest(key, sorted(_keys(kind)))
         expected = f"be a key of {given}"
         unknown.append(DescriptionError(f"loading.{key}", fields.pop(key), expected, hint=hint))
-    try:
-        made: Loading = _attrs_class(kind)(fields, kind)
-    except cattrs.ClassValidationError as error:
-        found = [one for one in error.exceptions if not (unknown and isinstance(one, KeyError))]
-        raise cattrs.ClassValidationError(error.message, [*unknown, *found], kind) from None
-    if len(unknown) == 1:
-        raise unknown[0]
-    if unknown:
-        raise cattrs.ClassValidationError("unknown keys", unknown, kind)
+    made: Loading = _made(lambda: _attrs_class(kind)(fields, kind), unknown, kind)
     return made
 
 

@@ -2,24 +2,13 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-import tempfile
 from functools import cache
 from pathlib import Path
 
-from ..errors import ContactkitError
-from ..extras import require
+from ..fmu.framework.toolchain import compile_wasm
 from ..fmu.native.sources import kernel_sources
 
 __all__ = ["kernel_module"]
-
-# -Os: 156 kB, and a release takes the same time as with -O3, which makes 184 kB of it.
-_FLAGS = (
-    *("-target", "wasm32-wasi", "-mexec-model=reactor", "-std=c99", "-Os", "-DNDEBUG"),
-    *("-ffp-contract=off", "-fno-math-errno", "-fvisibility=hidden", "-s"),
-    *("-Wall", "-Wextra", "-Werror"),
-)
 
 
 def page_sources() -> dict[str, bytes]:
@@ -44,23 +33,4 @@ def kernel_module() -> bytes:
     ContactkitError
         If the compiler failed.
     """
-    require("ziglang", "a live page, whose kernel is compiled to WebAssembly,")
-    with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
-        sources = page_sources()
-        for name, text in sources.items():
-            (Path(folder) / name).write_bytes(text)
-        compiled = sorted(name for name in sources if name.endswith(".c"))
-        made = Path(folder) / "page.wasm"
-        done = subprocess.run(
-            [sys.executable, "-m", "ziglang", "cc", *_FLAGS, *compiled, "-o", str(made)],
-            cwd=folder,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        if done.returncode or not made.exists():
-            raise ContactkitError(
-                "the kernel of the page could not be compiled to WebAssembly; install the version "
-                f"of ziglang that contactkit[native] names. It said:\n{done.stderr}"
-            )
-        return made.read_bytes()
+    return compile_wasm(page_sources(), "a live page, whose kernel is compiled to WebAssembly,")

@@ -365,6 +365,17 @@ class ContactLoading(Loading):
         """Imposed approach of the bodies from first touch [m]; None if a load is imposed."""
         return None
 
+    def imposed_over(self, area: float) -> float:
+        """Mean pressure [Pa] over a window of an area [m2], or the approach [m] that is imposed.
+
+        Examples
+        --------
+        >>> Pressing(force=2.0).imposed_over(0.5), Approach(approach=1e-9).imposed_over(0.5)
+        (4.0, 1e-09)
+        """
+        pressure = self.mean_pressure(area)
+        return float((self.imposed_approach if pressure is None else pressure) or 0.0)
+
     @property
     def quantity(self) -> Imposed:
         """The imposed quantity.

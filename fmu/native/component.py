@@ -9,15 +9,12 @@ their types, from which the text of the component is written and encoded by wasm
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
-import tempfile
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import NamedTuple
 
-from ...errors import ContactkitError, DescriptionError
+from ...errors import DescriptionError
 from ...extras import require
+from ..framework.toolchain import compile_wasm
 
 __all__ = ["WASM", "component", "component_files", "component_text", "kernel_module"]
 
@@ -26,9 +23,7 @@ WASM = "wasm32-wasip2"
 
 _PAGES = 80  # of 64 KiB: 1 MiB of handles and 2 MiB of stack, of which the grids of films take most
 _FLAGS = (
-    *("-target", "wasm32-wasi", "-mexec-model=reactor", "-std=c99", "-Os", "-DNDEBUG"),
-    *("-DCK_COMPONENT", "-DSLOTS=1024u", "-ffp-contract=off", "-fno-math-errno"),
-    *("-fvisibility=hidden", "-s", "-Wall", "-Wextra", "-Werror", "-Wl,--import-memory"),
+    *("-DCK_COMPONENT", "-DSLOTS=1024u", "-Wl,--import-memory"),
     *(f"-Wl,--initial-memory={_PAGES * 65536}", "-Wl,-z,stack-size=2097152"),
 )
 _MANIFEST = """<?xml version="1.0" encoding="UTF-8"?>
@@ -387,25 +382,7 @@ def kernel_module(sources: Mapping[str, bytes]) -> bytes:
     MissingExtraError, ContactkitError
         See `component_files`.
     """
-    require("ziglang", "a WebAssembly component")
-    with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
-        for name, text in sources.items():
-            (Path(folder) / name).write_bytes(text)
-        made = Path(folder) / "kernel.wasm"
-        compiled = sorted(name for name in sources if name.endswith(".c"))
-        done = subprocess.run(
-            [sys.executable, "-m", "ziglang", "cc", *_FLAGS, *compiled, "-o", str(made)],
-            cwd=folder,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        if done.returncode or not made.exists():
-            raise ContactkitError(
-                "the kernel could not be compiled to WebAssembly; install the version of ziglang "
-                f"that contactkit[native] names. It said:\n{done.stderr}"
-            )
-        return made.read_bytes()
+    return compile_wasm(sources, "a WebAssembly component", _FLAGS)
 
 
 # Encoding -------------------------------------------------------------------------------------

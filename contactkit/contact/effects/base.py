@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import abc
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeVar, cast
 
 from attrs import frozen
@@ -56,6 +56,7 @@ __all__ = [
     "SurfaceTraction",
     "VaryingHardness",
     "effects_of",
+    "listed_loadings",
 ]
 
 Part = TypeVar("Part")
@@ -354,6 +355,25 @@ class LoadHistory(ContactEffect[Part]):
     @abc.abstractmethod
     def loadings(self) -> tuple[ContactLoading, ...]:
         """Return the loadings before that of the scene, the first one first."""
+
+
+def listed_loadings(
+    pressures: Iterable[float], forces: Iterable[float], approaches: Iterable[float]
+) -> tuple[ContactLoading, ...]:
+    """Loadings of a list of mean pressures [Pa], of forces [N] or of approaches [m].
+
+    Examples
+    --------
+    >>> listed_loadings((), (1.0, 2.0), ())
+    (Pressing(pressure=None, force=1.0), Pressing(pressure=None, force=2.0))
+    """
+    from ...scene.loading import Approach, Pressing
+
+    return (
+        *(Pressing(pressure=one) for one in pressures),
+        *(Pressing(force=one) for one in forces),
+        *(Approach(approach=one) for one in approaches),
+    )
 
 
 @frozen(kw_only=True)

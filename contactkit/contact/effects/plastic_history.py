@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from attrs import Attribute, field, frozen
 
-from ...scene.loading import Approach, ContactLoading, Pressing
 from ...units import si
 from ...validators import as_tuple, as_whole, count, non_negative
 from ...validity import ValidityNumber
-from .base import Array, LoadHistory, PressureBound, Scalar, SolvedContact
+from .base import Array, LoadHistory, PressureBound, Scalar, SolvedContact, listed_loadings
 from .plasticity import MOST_PLASTIC
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from ...scene.loading import ContactLoading
     from ...scene.scenes import ContactScene
 
     Floats = NDArray[np.float64]
@@ -191,11 +191,7 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
 
     def loadings(self) -> tuple[ContactLoading, ...]:
         """See `LoadHistory.loadings`."""
-        return (
-            *(Pressing(pressure=one) for one in self.pressures),
-            *(Pressing(force=one) for one in self.forces),
-            *(Approach(approach=one) for one in self.approaches),
-        )
+        return listed_loadings(self.pressures, self.forces, self.approaches)
 
     def observe(self, contact: SolvedContact) -> None:
         """See `ContactEffect.observe`: the part is made with the solve itself."""

@@ -6,12 +6,20 @@ import time
 from typing import TYPE_CHECKING
 
 from ..effects.base import LoadTerm
+from .unknown import Target
 
 if TYPE_CHECKING:
+    from ..plan import ContactPlan
     from .step import Solved, Step
-    from .unknown import Target
 
-__all__ = ["solve_loaded"]
+__all__ = ["solve_loaded", "target_at"]
+
+
+def target_at(plan: ContactPlan, imposed: float) -> Target:
+    """Target of another load than that of the scene: its mean pressure [Pa] or its approach [m]."""
+    if plan.mean_pressure is None:
+        return Target(None, plan.prepared.first_touch + imposed)
+    return Target(imposed, None)
 
 
 def solve_loaded(step: Step, target: Target) -> Solved:

@@ -12,6 +12,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from peers_data import shown
+
 ROOT = Path(__file__).parents[3]
 FOUND = ROOT / "out" / "bench" / "large.json"
 KEPT = ROOT / "docs" / "demands" / "large-maps.json"
@@ -45,15 +47,6 @@ def whole(rows: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
     return found
 
 
-def _shown(value: Any) -> Any:
-    """Numbers to three digits."""
-    if isinstance(value, dict):
-        return {key: _shown(one) for key, one in value.items()}
-    if isinstance(value, list):
-        return [_shown(one) for one in value]
-    return float(f"{value:.3g}") if isinstance(value, float) else value
-
-
 def main() -> int:
     """Read what the run left, and write the data."""
     found = json.loads(FOUND.read_text("utf-8"))
@@ -63,7 +56,7 @@ def main() -> int:
         "small": beside(found["small"]),
         "large": whole(found["large"]),
     }
-    KEPT.write_text(json.dumps(_shown(data), indent=1) + "\n", encoding="utf-8")
+    KEPT.write_text(json.dumps(shown(data), indent=1) + "\n", encoding="utf-8")
     sys.stdout.write(f"{len(data['small'])} contacts, {len(data['large'])} large maps\n")
     return 0
 

@@ -62,12 +62,12 @@ def features(found: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
     return rows
 
 
-def _shown(value: Any) -> Any:
+def shown(value: Any) -> Any:
     """Numbers to three digits."""
     if isinstance(value, dict):
-        return {key: _shown(one) for key, one in value.items()}
+        return {key: shown(one) for key, one in value.items()}
     if isinstance(value, list):
-        return [_shown(one) for one in value]
+        return [shown(one) for one in value]
     return float(f"{value:.3g}") if isinstance(value, float) else value
 
 
@@ -86,7 +86,7 @@ def main() -> int:
         "left_out": absent,
         "rows": contacts(single["contest"]) + features(more),
     }
-    KEPT.write_text(json.dumps(_shown(data), indent=1) + "\n", encoding="utf-8")
+    KEPT.write_text(json.dumps(shown(data), indent=1) + "\n", encoding="utf-8")
     sys.stdout.write(f"{len(data['rows'])} problems\n")
     return 0
 
