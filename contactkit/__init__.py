@@ -151,6 +151,7 @@ if TYPE_CHECKING:
     )
     from .scene.scenes import ContactScene, SeparationScene, SlidingScene
     from .scene.surfaces import FineRoughness, Flat, Paraboloid, Sphere, Wave
+    from .scene.transverse import TransverselyIsotropicMaterial
     from .scene.viscoelastic import ViscoelasticMaterial
     from .scene.window import Window
     from .separation.deforming.effects import ElasticBodies, SolidContact
@@ -298,6 +299,7 @@ _HOMES = {
     "SubsurfaceStress": "contact.effects.stress",
     "TangentialStep": "scene.loading",
     "TensionLimit": "separation.effects.viscous",
+    "TransverselyIsotropicMaterial": "scene.transverse",
     "TroutonForce": "separation.wetting.trouton",
     "Union": "scene.planforms",
     "ValidityWarning": "errors",
@@ -472,6 +474,7 @@ __all__ = [
     "SubsurfaceStress",
     "TangentialStep",
     "TensionLimit",
+    "TransverselyIsotropicMaterial",
     "TroutonForce",
     "Union",
     "ValidityWarning",

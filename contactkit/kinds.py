@@ -135,6 +135,7 @@ SOLIDS: Registry[Any] = Registry(
     {
         "material": "scene.materials:Material",
         "viscoelastic": "scene.viscoelastic:ViscoelasticMaterial",
+        "transversely-isotropic": "scene.transverse:TransverselyIsotropicMaterial",
         "stack": "scene.materials:Stack",
     },
     tag="kind",

@@ -274,6 +274,7 @@ def unprepared_plan(scene: ContactScene, accuracy: Accuracy | None = None) -> Co
     _check_liquid(made)
     _check_holes(scene)
     _check_relaxation(scene)
+    _check_anisotropy(scene)
     _check_free_sheets(scene, grid)
     for one in (*_before(made), made):
         _check_size(one)
@@ -380,6 +381,20 @@ def _check_relaxation(scene: ContactScene) -> None:
         "leave it out, or give the elastic material solid.equilibrium or solid.instantaneous"
         for effect in effects_of(scene)
         if not effect.takes_relaxation
+    ]
+    if problems:
+        raise PlanError("; ".join(problems))
+
+
+def _check_anisotropy(scene: ContactScene) -> None:
+    """Refuse effects that know isotropic bodies only beside one that is not."""
+    materials = [one for stack in scene.interface.stacks for one in stack.materials]
+    name = next((one.name for one in materials if not one.is_isotropic), None)
+    problems = [
+        f"{type(effect).__name__} needs isotropic bodies, and {name} is transversely isotropic; "
+        "leave it out, or give a Material in its place"
+        for effect in effects_of(scene)
+        if name is not None and not effect.takes_anisotropy
     ]
     if problems:
         raise PlanError("; ".join(problems))

@@ -12,7 +12,12 @@ influence        Influence coefficients of non-periodic contacts.
 isolated_map     Displacement of maps without periodic images, and of waves.
 one_axis         Influence coefficients of windows that repeat along one axis.
 transverse_isotropy
-                 Transversely isotropic half-space: the modulus of its normal compliance.
+                 Transversely isotropic solids: constants, roots, and the modulus of the normal
+                 compliance of a half-space.
+transverse_layers
+                 Normal compliance of transversely isotropic layers in Fourier space.
+transverse_symbols
+                 The same in windows of any kind.
 prony            Relaxation modulus as a Prony series: creep, complex modulus, fit.
 creep_symbol     Creep of a layered solid at every wavenumber, from its compliance at some rates.
 rings            Displacement under axisymmetric pressures that are linear between rings.

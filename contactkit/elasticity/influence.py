@@ -26,7 +26,7 @@ from scipy import fft
 from . import love, point_load
 from .layer_stack import Base
 
-__all__ = ["coefficients", "coefficients_of", "symbol"]
+__all__ = ["coefficients", "coefficients_of", "symbol", "symbol_of"]
 
 # In longer sides of a pixel: nearer, coefficients are integrals over triangles, beyond, series in
 # moments of a pixel. Stacks with contrasts up to 100 are off by 1e-10 of a coefficient at most;
@@ -87,7 +87,19 @@ def symbol(
     array([[1.021202, 0.300684, 0.146306],
            [0.300684, 0.209917, 0.130663]])
     """
-    quadrant = coefficients(shape, pixel_size, young_modulus, poisson_ratio, thickness, base)
+    return symbol_of(coefficients(shape, pixel_size, young_modulus, poisson_ratio, thickness, base))
+
+
+def symbol_of(quadrant: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Transform of coefficients (ny + 1, nx + 1) that are even in both offsets, as `symbol`.
+
+    Those given are overwritten.
+
+    Examples
+    --------
+    >>> symbol_of(np.array([[2.0, 1.0], [0.0, 0.0]])).tolist()
+    [[3.0, 1.0], [3.0, 1.0]]
+    """
     # The transform of an even, periodic array is a cosine transform on a quarter of the points.
     half = fft.dctn(quadrant, type=1, overwrite_x=True)
     return np.asarray(np.concatenate((half, half[-2:0:-1])))

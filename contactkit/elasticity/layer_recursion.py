@@ -49,8 +49,8 @@ THICKEST = 1e3
 # 0.1, the ten terms leave 2e-12 at 3.2. Nine terms would do.
 SERIES_BELOW = 1.6
 # (sinh y - y)/y^3 and (cosh y - 1 - y^2/2)/y^4 as series in y^2
-_SINH = 1.0 / np.cumprod(np.arange(1.0, 22.0))[2::2]
-_COSH = 1.0 / np.cumprod(np.arange(1.0, 23.0))[3::2]
+SINH = 1.0 / np.cumprod(np.arange(1.0, 22.0))[2::2]
+COSH = 1.0 / np.cumprod(np.arange(1.0, 23.0))[3::2]
 
 
 class Products(NamedTuple):
@@ -104,7 +104,7 @@ def _near(y: Array, one: Array) -> tuple[Array, Array, Array, Array]:
     """Products by series: sc = sinh(y)/2, ss = (cosh(y) - 1)/2 with y = 2x, less first terms."""
     w = y * y
     scale = 0.5 * w * one
-    sc_x, ss_xx = scale * y * _series(_SINH, w), scale * w * _series(_COSH, w)
+    sc_x, ss_xx = scale * y * _series(SINH, w), scale * w * _series(COSH, w)
     return 0.5 * scale + ss_xx, 0.5 * y * one + sc_x, ss_xx, sc_x
 
 
@@ -325,6 +325,6 @@ def _within(x: Array, p: Products, m: float) -> tuple[Array, Array, Array, Array
     if near.any():
         small = x[near]
         w = small * small
-        terms = _series(_SINH * np.arange(2.0, 2.0 * _SINH.size + 1.0, 2.0), w)
+        terms = _series(SINH * np.arange(2.0, 2.0 * SINH.size + 1.0, 2.0), w)
         g[near] = half * small * w * terms * np.exp(-small)
     return c, s, e, g

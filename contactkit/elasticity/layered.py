@@ -23,7 +23,7 @@ of 1, f11, f22 and d are sums of non-negative terms, so that nothing cancels for
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -45,7 +45,9 @@ from .layer_stack import Base, Stack, stack_of, uniform_compliance
 __all__ = [
     "Compliance",
     "compliance",
+    "blocks",
     "normal_symbol",
+    "symbol_of",
 ]
 
 Array = NDArray[np.float64]
@@ -190,18 +192,51 @@ def normal_symbol(
     ((4, 5), True)
     """
     stack = stack_of(young_modulus, poisson_ratio, thickness, base)
+
+    def at(alpha: Array) -> Array:
+        values = np.empty((1, alpha.size))
+        _fill(values, alpha, stack)
+        return values[0]
+
+    mean = 0.0
+    if base is not None:
+        mean = uniform_compliance(young_modulus, poisson_ratio, thickness, base)
+    return symbol_of(at, shape, pixel_size, mean)
+
+
+def symbol_of(
+    at: Callable[[Array], Array],
+    shape: tuple[int, int],
+    pixel_size: tuple[float, float],
+    mean: float = 0.0,
+) -> Array:
+    """Any compliance on the real-FFT grid of a periodic map, as `normal_symbol`.
+
+    Parameters
+    ----------
+    at : callable
+        Compliance at wavenumbers (m,) [1/m], (m,) [m/Pa].
+    shape, pixel_size
+        As in `normal_symbol`.
+    mean : float
+        Compliance at wavenumber 0 [m/Pa].
+
+    Examples
+    --------
+    >>> symbol_of(lambda alpha: 1.0 / alpha, (1, 4), (1.0, 1.0)).round(3).tolist()
+    [[0.0, 0.637, 0.318]]
+    """
     (ny, nx), (ly, lx) = shape, _cell(shape, pixel_size)
     along_y, along_x = np.arange(ny // 2 + 1), np.arange(nx // 2 + 1)
     if ly == lx and max(along_y[-1], along_x[-1]) <= 4 * min(along_y.size, along_x.size):
-        quarter = _of_squares(along_y, along_x, 2.0 * np.pi / lx, stack)
+        quarter = _of_squares(along_y, along_x, 2.0 * np.pi / lx, at)
     else:
         ky, kx = 2.0 * np.pi / ly * along_y, 2.0 * np.pi / lx * along_x
         alpha = np.hypot(ky[:, None], kx).ravel()
-        quarter = np.zeros((1, alpha.size))
-        _fill(quarter[:, 1:], alpha[1:], stack)
+        quarter = np.zeros(alpha.size)
+        quarter[1:] = at(alpha[1:])
         quarter = quarter.reshape(ky.size, kx.size)
-    if base is not None:
-        quarter[0, 0] = uniform_compliance(young_modulus, poisson_ratio, thickness, base)
+    quarter[0, 0] = mean
     return np.concatenate([quarter, quarter[(ny - 1) // 2 : 0 : -1]])
 
 
@@ -298,16 +333,19 @@ def _climbed(alpha: Array, stack: Stack, *, shear: bool) -> tuple[Array, ...]:
 
 
 def _of_squares(
-    along_y: NDArray[np.int_], along_x: NDArray[np.int_], k: float, stack: Stack
+    along_y: NDArray[np.int_],
+    along_x: NDArray[np.int_],
+    k: float,
+    at: Callable[[Array], Array],
 ) -> Array:
-    """C at k sqrt(i^2 + j^2), each sum of squares evaluated once; zero at the origin."""
+    """Compliance at k sqrt(i^2 + j^2), each sum of squares evaluated once; zero at the origin."""
     # Integers: equal wavenumbers are found exactly and without sorting.
     squares = (along_y * along_y)[:, None] + along_x * along_x
     met = np.zeros(squares[-1, -1] + 1, dtype=bool)
     met[squares] = True
     unique = np.flatnonzero(met)[1:]
-    values = np.empty((1, unique.size))
-    _fill(values, k * np.sqrt(unique), stack)
+    # Values before the table: the other way round takes a third longer, of pages that are returned.
+    values = at(k * np.sqrt(unique))
     table = np.zeros(met.size)
-    table[unique] = values[0]
+    table[unique] = values
     return table[squares]

@@ -32,7 +32,7 @@ from scipy import fft
 from . import influence, point_load
 from .layer_stack import Layers, stack_of
 
-__all__ = ["coefficients", "reference", "symbol"]
+__all__ = ["Solid", "coefficients", "reference", "symbol", "symbol_of"]
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
@@ -89,11 +89,49 @@ def symbol(
     >>> bool(np.allclose(along_x, along_y.T, rtol=1e-13))
     True
     """
+    return symbol_of(shape, pixel_size, _solid_of(layers), along)
+
+
+class Solid(NamedTuple):
+    """What coefficients along one axis need of a solid.
+
+    Attributes
+    ----------
+    isolated : callable
+        Coefficients of isolated contacts of a shape and a pixel size, as `influence.coefficients`.
+    table : callable or None
+        Table of the point load over a range of radii; None of a half-space.
+    substrate : float
+        T far away [1/Pa], zero on a rigid base.
+    settled : float
+        Sum of the thicknesses times the contrast of the materials [m].
+    bending : float
+        ``sum h ((G/G_s)^(1/3) - 1)`` of the layers that are stiffer than the substrate [m].
+    """
+
+    isolated: Callable[[tuple[int, int], Pair], Array]
+    table: Callable[[point_load.Radii], point_load.PointLoad] | None
+    substrate: float
+    settled: float
+    bending: float
+
+
+def symbol_of(
+    shape: tuple[int, int], pixel_size: Pair, solid: Solid, along: Literal["x", "y"]
+) -> Array:
+    """Transform of the coefficients of any solid, as `symbol`.
+
+    Examples
+    --------
+    >>> solid = _solid_of(Layers([1.0], [0.3]))
+    >>> symbol_of((2, 6), (1.0, 1.0), solid, "x").shape
+    (4, 4)
+    """
     turned = along == "y"
     period = shape[0] if turned else shape[1]
     if turned:
         shape, pixel_size = (shape[1], shape[0]), (pixel_size[1], pixel_size[0])
-    quadrant = coefficients(shape, pixel_size, layers)
+    quadrant = _coefficients(shape, pixel_size, solid)
     column = np.arange(period)
     rows = quadrant[:, np.minimum(column, period - column)]
     half = fft.dct(fft.rfft(rows, axis=1).real, type=1, axis=0)
@@ -134,15 +172,19 @@ def coefficients(shape: tuple[int, int], pixel_size: Pair, layers: Layers) -> Ar
     >>> print(round(K[32, 0], 5), round(2 / np.pi * np.log(2), 5))
     0.4413 0.44127
     """
+    return _coefficients(shape, pixel_size, _solid_of(layers))
+
+
+def _coefficients(shape: tuple[int, int], pixel_size: Pair, solid: Solid) -> Array:
     (ny, nx), (dy, dx) = shape, pixel_size
     half, near = nx // 2, max(_LEAST, math.ceil(ny * dy / (nx * dx)))
-    images = influence.coefficients((ny, near * nx + half), pixel_size, *layers)
+    images = solid.isolated((ny, near * nx + half), pixel_size)
     total = images[:, : half + 1].copy()
     for j in range(1, near + 1):
         total += images[:, j * nx : j * nx + half + 1]
         total += images[:, j * nx - half : j * nx + 1][:, ::-1]
     x, y = dx * np.arange(half + 1.0), dy * np.arange(ny + 1.0)
-    distant = _Distant(layers, nx * dx, ny * dy, near)
+    distant = _Distant(solid, nx * dx, ny * dy, near)
     across, along = (
         _smooth(at, reach, size, count)
         for at, reach, size, count in zip(
@@ -169,11 +211,31 @@ def reference(layers: Layers, height: float) -> float:
     >>> round(reference(Layers([8.0, 1.0], [0.3, 0.3], [1.0]), 2.0), 9)
     8.0
     """
-    G, _, h, base = stack_of(*layers)
-    if base:
-        return height
+    return _reference(_solid_of(layers), height)
+
+
+def _reference(solid: Solid, height: float) -> float:
+    return max(height, _BENDING * solid.bending)
+
+
+def _solid_of(layers: Layers) -> Solid:
+    G, nu, h, base = stack_of(*layers)
+    E = 2.0 * G * (1.0 + nu)
+
+    def isolated(shape: tuple[int, int], pixel_size: Pair) -> Array:
+        return influence.coefficients(shape, pixel_size, *layers)
+
+    def table(radii: point_load.Radii) -> point_load.PointLoad:
+        return point_load.table(E, nu, h, *radii, base)
+
     stiffer = np.maximum(np.cbrt(G[: h.size] / G[-1]) - 1.0, 0.0)
-    return max(height, _BENDING * float(h @ stiffer))
+    return Solid(
+        isolated,
+        table if h.size else None,
+        0.0 if base else float((1.0 - nu[-1]) / G[-1]),
+        float(h.sum() * G.max() / G.min()),
+        0.0 if base else float(h @ stiffer),
+    )
 
 
 class _Smooth(NamedTuple):
@@ -198,21 +260,18 @@ def _smooth(at: Array, reach: float, size: float, count: int) -> _Smooth:
 class _Distant:
     """Displacement under unit forces on all images beyond the `near` ones of a point."""
 
-    def __init__(self, layers: Layers, period: float, height: float, near: int) -> None:
+    def __init__(self, solid: Solid, period: float, height: float, near: int) -> None:
         self.period, self.near = period, near
         longer = max(period, height)
         self.last = near + math.ceil(_SUMMED * longer / period)
         self.end = (self.last + 0.5) * period
-        G, nu, h, base = stack_of(*layers)
-        self.substrate = 0.0 if base else float((1.0 - nu[-1]) / G[-1])
-        self.datum = reference(layers, height)
+        self.substrate = solid.substrate
+        self.datum = _reference(solid, height)
         # From there on T is that of the substrate, and the datum is seen from far away.
-        settled = _SETTLED * float(h.sum() * G.max() / G.min())
-        self.settled = max(_SETTLED * self.end, settled)
-        if h.size:
-            E = 2.0 * G * (1.0 + nu)
+        self.settled = max(_SETTLED * self.end, _SETTLED * solid.settled)
+        if solid.table is not None:
             nearest = min(0.5 * (near + 0.5) * period, self.datum)
-            table = point_load.table(E, nu, h, nearest, 1.01 * self.settled, base)
+            table = solid.table(point_load.Radii(nearest, 1.01 * self.settled))
             self.T, self.T_1 = (_read(table, order) for order in (0, 1))
         else:
             self.T = lambda r: np.full_like(r, self.substrate)

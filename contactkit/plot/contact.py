@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -179,14 +178,11 @@ def stack_section(stack: Stack, ax: Axes | None = None, title: str = "") -> Axes
         else:
             thickness = "half-space"
         hardness = f", H {material.hardness / 1e9:.3g} GPa" if material.hardness else ""
-        moduli = dict.fromkeys(material.at_rate(rate).young_modulus for rate in (math.inf, 0.0))
-        modulus = " to ".join(f"{one / 1e9:.4g}" for one in moduli)  # at once, and relaxed
-        numbers = f"E {modulus} GPa, nu {material.poisson_ratio:g}"
         light = i % len(_LAYER_COLOURS) < 2
         ax.text(
             0.5,
             i + 0.5,
-            f"{material.name}, {thickness}\n{numbers}{hardness}",
+            f"{material.name}, {thickness}\n{material.elastic_label}{hardness}",
             ha="center",
             va="center",
             color="w" if light else "k",

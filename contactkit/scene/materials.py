@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import abc
+import math
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from attrs import Attribute, evolve, field, frozen
@@ -13,8 +14,9 @@ from ..validators import Described, as_tuple, optional, part, positive, refuse
 
 if TYPE_CHECKING:
     from ..elasticity.prony import PronySeries
+    from ..elasticity.transverse_isotropy import PlaneConstants
 
-__all__ = ["Layer", "Material", "RigidBase", "Solid", "Stack", "needs_time"]
+__all__ = ["Layer", "Material", "RigidBase", "Solid", "Stack", "needs_isotropy", "needs_time"]
 
 
 def _poisson(owner: object, attribute: Attribute[Any], value: Any) -> None:
@@ -29,6 +31,15 @@ def needs_time(material: Material) -> str:
         f"{material.name} is viscoelastic, and here one modulus is needed: in a contact list "
         "Viscoelasticity(times=...) among the effects of its scene, elsewhere give the elastic "
         "material of slow loading, solid.equilibrium, or of fast, solid.instantaneous"
+    )
+
+
+def needs_isotropy(material: Material) -> str:
+    """State that a material has an axis where isotropic ones are needed, and the cure."""
+    return (
+        f"{material.name} is transversely isotropic, and here isotropic materials are needed: give "
+        "a Material in its place; under pressure alone its half-space is that of "
+        f"Material(young_modulus={material.plane_strain_modulus:.6g}, poisson_ratio=0.0)"
     )
 
 
@@ -75,6 +86,7 @@ class Material(Solid):
     """
 
     kind: ClassVar[str] = "material"
+    is_isotropic: ClassVar[bool] = True
 
     name: str = "material"
     young_modulus: float = field(validator=positive, metadata=si("Pa"))
@@ -91,6 +103,20 @@ class Material(Solid):
     def stack(self) -> Stack:
         """See `Solid.stack`."""
         return Stack(substrate=self)
+
+    @property
+    def plane_constants(self) -> PlaneConstants:
+        """Constants of waves in a plane through the normal, in which solids with an axis differ."""
+        from ..elasticity.transverse_isotropy import isotropic_constants
+
+        return isotropic_constants(self.young_modulus, self.poisson_ratio)
+
+    @property
+    def elastic_label(self) -> str:
+        """Its constants for figures; of moduli that relax the first and the last."""
+        moduli = dict.fromkeys(self.at_rate(rate).young_modulus for rate in (math.inf, 0.0))
+        modulus = " to ".join(f"{one / 1e9:.4g}" for one in moduli)
+        return f"E {modulus} GPa, nu {self.poisson_ratio:g}"
 
     @property
     def relaxation(self) -> PronySeries | None:
@@ -230,12 +256,19 @@ class Stack(Solid):
         Raises
         ------
         PlanError
-            If one of them depends on time.
+            If one of them depends on time or on the direction.
         """
         for material in self.materials:
+            if not material.is_isotropic:
+                raise PlanError(needs_isotropy(material))
             if material.relaxation is not None:
                 raise PlanError(needs_time(material))
         return tuple(m.young_modulus for m in self.materials)
+
+    @property
+    def is_isotropic(self) -> bool:
+        """Whether all materials are."""
+        return all(material.is_isotropic for material in self.materials)
 
     @property
     def relaxes(self) -> bool:

@@ -15,6 +15,7 @@ from .materials import Material, needs_time
 
 if TYPE_CHECKING:
     from ..elasticity.prony import PronySeries
+    from ..elasticity.transverse_isotropy import PlaneConstants
 
 __all__ = ["ViscoelasticMaterial"]
 
@@ -130,6 +131,11 @@ class ViscoelasticMaterial(Material):
     @property
     def plane_strain_modulus(self) -> float:
         """Refused, as it depends on time: see `instantaneous` and `equilibrium`."""
+        raise PlanError(needs_time(self))
+
+    @property
+    def plane_constants(self) -> PlaneConstants:
+        """Refused, as they depend on time."""
         raise PlanError(needs_time(self))
 
     @classmethod

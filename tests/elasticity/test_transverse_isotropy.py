@@ -11,6 +11,7 @@ import pytest
 from contactkit.elasticity.transverse_isotropy import (
     Stiffness,
     indentation_modulus,
+    plane_constants,
     stiffness_of,
 )
 from contactkit.errors import DescriptionError
@@ -82,7 +83,16 @@ def test_constants_invert_to_the_compliance():
     ],
 )
 def test_constants_of_no_solid_are_refused(given):
-    with pytest.raises(DescriptionError, match="stiffness_of"):
+    with pytest.raises(DescriptionError, match="plane_constants"):
+        stiffness_of(*given)
+
+
+@pytest.mark.errors
+def test_an_incompressible_solid_has_constants_of_waves_but_no_stiffness():
+    ratio, modulus = 0.5, 3.0  # nu_12 = 1 - E_1/(2 E_3)
+    given = (modulus, 2.0, 1.0 - 0.25 * modulus, ratio, 0.7)
+    assert plane_constants(*given).axial == 0.0
+    with pytest.raises(DescriptionError, match="compressible"):
         stiffness_of(*given)
 
 

@@ -44,6 +44,15 @@ materials |= st.builds(
     fractions=st.just((0.5, 0.25)),
     times=st.tuples(decades(-9.0, -1.0), decades(0.0, 9.0)),
 )
+materials |= st.builds(
+    ck.TransverselyIsotropicMaterial,
+    name=names,
+    young_modulus=st.just(2e9),
+    axial_modulus=decades(9.5, 12.0),
+    poisson_ratio=st.floats(-0.9, 0.5),
+    axial_ratio=st.floats(-0.5, 0.5),
+    shear_modulus=stresses,
+)
 layers = st.builds(ck.Layer, material=materials, thickness=lengths)
 stacks = st.builds(
     ck.Stack, layers=st.lists(layers, max_size=3).map(tuple), substrate=materials

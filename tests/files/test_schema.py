@@ -118,7 +118,7 @@ def test_keys_that_files_alone_have_are_there():
         assert PARTS[f"device-{name}"]["properties"].keys() == keys_of(kind) | {"device"}
 
 
-GIVEN = {"poisson_ratio": "0.3", "hurst": "0.8", "temperature_1": "40 degC"}
+GIVEN = {"poisson_ratio": "0.3", "axial_ratio": "0.3", "hurst": "0.8", "temperature_1": "40 degC"}
 GIVEN |= {"reference_viscosity": "30 uPa.s"}
 
 

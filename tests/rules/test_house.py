@@ -96,6 +96,7 @@ SCENE_OBJECTS = [
     ck.RigidBase,
     ck.Stack,
     ck.TangentialStep,
+    ck.TransverselyIsotropicMaterial,
     ck.Vibration,
     ck.ViscoelasticMaterial,
     ck.Wave,

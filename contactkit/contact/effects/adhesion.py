@@ -106,6 +106,7 @@ class Adhesion(Attraction[AdhesionPart]):
     """
 
     takes_relaxation: ClassVar[bool] = True
+    takes_anisotropy: ClassVar[bool] = True
     name: ClassVar[str] = "adhesion"
     summary: ClassVar[str] = "attraction of the surfaces across their gap"
     records: ClassVar[tuple[type, ...]] = (AdhesionPart,)

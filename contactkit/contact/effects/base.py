@@ -258,6 +258,8 @@ class ContactEffect(Effect, Generic[Part]):
     """Whether it is right on an isolated sheet that slides on its base."""
     takes_relaxation: ClassVar[bool] = False
     """Whether it is right on bodies whose moduli depend on time."""
+    takes_anisotropy: ClassVar[bool] = False
+    """Whether it is right on bodies of transversely isotropic materials."""
 
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """Name what this effect needs and `scene` does not give, with units."""

@@ -14,6 +14,7 @@ from .base import Compliance
 
 if TYPE_CHECKING:
     from ...elasticity.layer_stack import Layers
+    from ...elasticity.transverse_layers import TransverseLayers
     from ...scene.interface import Interface
     from ...scene.materials import Stack
     from ...scene.scenes import ContactScene
@@ -34,6 +35,11 @@ _DEEPEST = 0.1  # displacement over thickness
 _THICKEST = 1e4  # layer over window: coatings are thinner, a sheet of 1 mm may have one of 1 um
 _FREE = "Love 1929, square patch on a half-space"
 _BASE = "layers on a rigid base: Sneddon 1951; Johnson 1985, section 5.8"
+_AXIS = "transversely isotropic half-space under pressure: Elliott 1948"
+_AXIS_LAYERS = (
+    "transversely isotropic layers: the waves of Elliott 1948 in a linear recursion of the minors "
+    "of the compliance, own formulation"
+)
 _SUM = "compliances of two bodies add: Johnson 1985, section 5.1"
 
 
@@ -48,13 +54,19 @@ class HalfSpace(Compliance):
 
     takes_holes: ClassVar[bool] = True
     takes_relaxation: ClassVar[bool] = True
+    takes_anisotropy: ClassVar[bool] = True
     name: ClassVar[str] = "half-space"
     summary: ClassVar[str] = "homogeneous elastic half-spaces"
 
     @property
     def sources(self) -> tuple[str, ...]:
         """See `Effect.sources`."""
-        return ("Boussinesq's half-space, Eq. (2.34) of Cai 2008 without layers", _FREE, _SUM)
+        return (
+            "Boussinesq's half-space, Eq. (2.34) of Cai 2008 without layers",
+            _FREE,
+            _SUM,
+            _AXIS,
+        )
 
     def cites(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.cites`."""
@@ -82,6 +94,7 @@ class LayeredHalfSpace(Compliance):
 
     takes_holes: ClassVar[bool] = True
     takes_relaxation: ClassVar[bool] = True
+    takes_anisotropy: ClassVar[bool] = True
     name: ClassVar[str] = "layered-half-space"
     summary: ClassVar[str] = "bonded elastic layers on half-spaces or rigid bases"
 
@@ -94,6 +107,7 @@ class LayeredHalfSpace(Compliance):
             _FREE,
             _SUM,
             _BASE,
+            _AXIS_LAYERS,
         )
 
     def cites(self, scene: ContactScene) -> tuple[str, ...]:
@@ -156,14 +170,17 @@ def _indentation(contact: SolvedContact, thickness: float) -> ValidityNumber:
 
 
 def _cited(effect: Compliance, scene: ContactScene) -> tuple[str, ...]:
-    first, free, two, *base = effect.sources
-    found = [first]
+    first, free, two, *base, axis = effect.sources
+    stacks = scene.interface.stacks
+    found = [] if all(s.layers and not s.is_isotropic for s in stacks) else [first]
     if scene.window.periodic in (False, "x", "y"):
         found.append(free)
-    if len(scene.interface.stacks) > 1:
+    if len(stacks) > 1:
         found.append(two)
-    if any(stack.base for stack in scene.interface.stacks):
+    if any(stack.base for stack in stacks):
         found.extend(base)
+    if not all(stack.is_isotropic for stack in stacks):
+        found.append(axis)
     return tuple(found)
 
 
@@ -185,13 +202,44 @@ def bodies_of(interface: Interface) -> tuple[Layers | None, Layers | None]:
 
 def symbol_maker(stack: Stack, grid: Grid) -> SymbolMaker:
     """Return what makes the symbol of a solid on any grid of a window."""
+    if stack.layers and not stack.is_isotropic:
+        return partial(_of_transverse, layers=_transverse_layers(stack), grid=grid)
+    layers = layers_of(stack) if stack.is_isotropic else _equal_half_space(stack)
     if grid.along:
-        return partial(
-            _along_one_axis, layers=layers_of(stack), along=grid.along, finest=grid.shape
-        )
+        return partial(_along_one_axis, layers=layers, along=grid.along, finest=grid.shape)
     if grid.periodic:
-        return partial(_periodic, layers=layers_of(stack))
-    return partial(_isolated, layers=layers_of(stack), finest=grid.shape)
+        return partial(_periodic, layers=layers)
+    return partial(_isolated, layers=layers, finest=grid.shape)
+
+
+def _equal_half_space(stack: Stack) -> Layers:
+    """Isotropic half-space of the compliance under pressure of one that is not."""
+    from ...elasticity.layer_stack import Layers
+
+    return Layers([stack.materials[0].plane_strain_modulus], [0.0])
+
+
+def _transverse_layers(stack: Stack) -> TransverseLayers:
+    from ...elasticity.transverse_layers import TransverseLayers
+
+    solids = tuple(material.plane_constants for material in stack.materials)
+    return TransverseLayers(solids, stack.thicknesses, stack.base)
+
+
+def _of_transverse(
+    shape: tuple[int, int], pixel_size: tuple[float, float], layers: TransverseLayers, grid: Grid
+) -> Map:
+    from ...elasticity import transverse_symbols
+
+    if grid.periodic:
+        return transverse_symbols.periodic_symbol(shape, pixel_size, layers)
+    if grid.along:
+        made = transverse_symbols.one_axis_symbol(shape, pixel_size, layers, grid.along)
+    else:
+        made = transverse_symbols.isolated_symbol(shape, pixel_size, layers)
+    if shape == grid.shape:
+        _yields(made, layers, max(pixel_size))
+    return made
 
 
 def _periodic(shape: tuple[int, int], pixel_size: tuple[float, float], layers: Layers) -> Map:
@@ -226,7 +274,7 @@ def _isolated(
     return made
 
 
-def _yields(symbol: Map, layers: Layers, pixel: float) -> None:
+def _yields(symbol: Map, layers: Layers | TransverseLayers, pixel: float) -> None:
     """Refuse layers on a base that give way upwards: incompressible and far below a pixel."""
     if layers.base and symbol.min() < -_ROUND_OFF * symbol.max():
         raise DescriptionError(

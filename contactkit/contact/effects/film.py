@@ -97,6 +97,7 @@ class FilmMeniscus(LoadTerm[FilmPart]):
         is reported only.
     """
 
+    takes_anisotropy: ClassVar[bool] = True
     name: ClassVar[str] = "film-meniscus"
     summary: ClassVar[str] = "meniscus force of a thin film on a rough contact"
     takes_tension: ClassVar[bool] = False

@@ -82,6 +82,7 @@ class FrictionTraction(SurfaceTraction[FrictionPart]):
     """
 
     takes_holes: ClassVar[bool] = True
+    takes_anisotropy: ClassVar[bool] = True
     name: ClassVar[str] = "friction-traction"
     summary: ClassVar[str] = "tangential traction of quasi-static sliding"
     records: ClassVar[tuple[type, ...]] = (FrictionPart,)
@@ -160,7 +161,9 @@ class FrictionCoupling(DisplacementTerm[CouplingPart]):
     def lacks(self, scene: ContactScene) -> tuple[str, ...]:
         """See `ContactEffect.lacks`."""
         friction, interface = scene.effect(FrictionTraction), scene.interface
-        if friction is None or any(s.layers or s.base for s in interface.stacks):
+        if friction is None or any(
+            s.layers or s.base or not s.is_isotropic for s in interface.stacks
+        ):
             return ()
         constant = _dundurs(interface)
         if not abs(friction.coefficient) * constant > _STRONGEST:

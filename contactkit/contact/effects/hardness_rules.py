@@ -216,6 +216,11 @@ class LayeredRule(HardnessRule):
                 f"a substrate without end with rule={self.kind!r}, which knows no rigid base (or "
                 "rule='material', or ConstantHardness with the measured hardness)",
             )
+        if any(stack.layers and not stack.is_isotropic for stack in scene.interface.stacks):
+            missing += (
+                f"isotropic layers with rule={self.kind!r}, which compares Young's moduli (or "
+                "rule='material', or ConstantHardness with the measured hardness)",
+            )
         return missing
 
     def prepare(self, scene: ContactScene, grid: Grid) -> HardnessLaw:

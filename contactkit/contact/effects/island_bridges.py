@@ -114,6 +114,7 @@ class IslandBridges(Observer[IslandPart]):
     and the volume.
     """
 
+    takes_anisotropy: ClassVar[bool] = True
     name: ClassVar[str] = "island-bridges"
     summary: ClassVar[str] = "an exact bridge on each wet island of a rough contact"
     takes_tension: ClassVar[bool] = False

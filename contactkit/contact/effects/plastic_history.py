@@ -147,6 +147,7 @@ class PlasticHistory(LoadHistory[PlasticHistoryPart]):
 
     takes_holes: ClassVar[bool] = True
     has_gradient: ClassVar[bool] = True
+    takes_anisotropy: ClassVar[bool] = True
     name: ClassVar[str] = "plastic-history"
     summary: ClassVar[str] = "loads before, whose plastic deformation stays"
     figures: ClassVar[tuple[str, ...]] = ("force_approach", "residual_depth")

@@ -83,6 +83,7 @@ class HardnessLimit(PressureBound[PlasticPart]):
     """
 
     takes_holes: ClassVar[bool] = True
+    takes_anisotropy: ClassVar[bool] = True
     name: ClassVar[str] = "hardness-limit"
     summary: ClassVar[str] = "perfectly plastic where the pressure reaches the hardness"
     records: ClassVar[tuple[type, ...]] = (PlasticPart,)

@@ -132,6 +132,7 @@ class Viscoelasticity(LoadHistory[ViscoelasticityPart]):
 
     takes_holes: ClassVar[bool] = True
     takes_relaxation: ClassVar[bool] = True
+    takes_anisotropy: ClassVar[bool] = True
     name: ClassVar[str] = "viscoelasticity"
     summary: ClassVar[str] = "loads over time, on bodies whose moduli relax"
     figures: ClassVar[tuple[str, ...]] = ("time_curves", "load_loop")
