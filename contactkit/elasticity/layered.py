@@ -196,7 +196,7 @@ def normal_symbol(
     def at(alpha: Array) -> Array:
         values = np.empty((1, alpha.size))
         _fill(values, alpha, stack)
-        return values[0]
+        return np.asarray(values[0])
 
     mean = 0.0
     if base is not None:

@@ -137,14 +137,14 @@ def _climb(solid: PlaneConstants, t: Array, below: Minors) -> Minors:
 
 def _lowest(layers: TransverseLayers, size: int) -> Minors:
     """Minors on top of a substrate, eigenvector of the rate sigma, or of a base."""
+    values = (1.0, 0.0, 0.0, 0.0, 0.0) if layers.base == "bonded" else (0.0, 1.0, 0.0, 0.0, 0.0)
     if layers.base is None:
         solid = layers.solids[-1]
         roots = roots_of(solid)
-        P = roots.sum / solid.in_plane
-        Z = (solid.axial + solid.shear * roots.product) / solid.in_plane
-        values = 1.0, P, roots.excess / solid.in_plane, roots.product * P, Z
-    else:
-        values = (1.0, 0.0, 0.0, 0.0, 0.0) if layers.base == "bonded" else (0.0, 1.0, 0.0, 0.0, 0.0)
+        along = roots.sum / solid.in_plane
+        determinant = (solid.axial + solid.shear * roots.product) / solid.in_plane
+        cross = roots.excess / solid.in_plane
+        values = 1.0, along, cross, roots.product * along, determinant
     D, P, Q, R, Z = (np.full(size, value) for value in values)
     return D, P, Q, R, Z
 

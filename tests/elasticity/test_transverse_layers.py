@@ -7,6 +7,7 @@ import pytest
 import scipy.linalg
 
 from contactkit.elasticity import influence, layered, one_axis
+from contactkit.elasticity.layer_stack import Layers
 from contactkit.elasticity.transverse_isotropy import (
     PlaneConstants,
     Stiffness,
@@ -174,13 +175,10 @@ def test_symbols_of_isotropic_layers_are_those_of_every_window(base):
     layers = TransverseLayers(
         tuple(isotropic_constants(*one) for one in zip(E, nu, strict=True)), tuple(h), base
     )
-    shape, pixel = (12, 10), (0.5, 0.3)
+    shape, pixel, plain = (12, 10), (0.5, 0.3), Layers(E, nu, h, base)
     pairs = [
-        (
-            periodic_symbol(shape, pixel, layers),
-            layered.normal_symbol(shape, pixel, E, nu, h, base),
-        ),
-        (isolated_symbol(shape, pixel, layers), influence.symbol(shape, pixel, E, nu, h, base)),
+        (periodic_symbol(shape, pixel, layers), layered.normal_symbol(shape, pixel, *plain)),
+        (isolated_symbol(shape, pixel, layers), influence.symbol(shape, pixel, *plain)),
         (
             one_axis_symbol(shape, pixel, layers, "y"),
             one_axis.symbol(shape, pixel, plain, "y"),
