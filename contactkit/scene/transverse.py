@@ -89,7 +89,7 @@ class TransverselyIsotropicMaterial(Material):
                 f"be at most {most / math.sqrt(self.young_modulus):.6g} in size with the other "
                 "constants given: a deformation would release energy",
                 hint="axial_ratio is nu_31, the contraction in the plane under a stress along the "
-                "axis; nu_13 is axial_modulus/young_modulus times as large",
+                "axis; nu_13 is young_modulus/axial_modulus times as large",
             ) from None
 
     @property

@@ -28,7 +28,11 @@ def _of(room: str, *names: str) -> tuple[str, ...]:
 TOPICS = (
     Topic("scenes", "Scenes", ("scene",)),
     Topic("loading", "Loading", ("scene.loading",)),
-    Topic("bodies", "Bodies and materials", _of("scene", "materials", "asperity_population")),
+    Topic(
+        "bodies",
+        "Bodies and materials",
+        _of("scene", "materials", "transverse", "viscoelastic", "asperity_population"),
+    ),
     Topic(
         "surfaces",
         "Surfaces and faces",
@@ -150,6 +154,8 @@ MEMBERS: Mapping[str, Sequence[str]] = {
     "Liquid": ("at",),
     "Meniscus": ("from_coverage", "from_radius"),
     "Material": ("plane_strain_modulus",),
+    "TransverselyIsotropicMaterial": ("from_stiffness", "plane_strain_modulus"),
+    "ViscoelasticMaterial": ("from_series", "from_table", "instantaneous", "equilibrium"),
     "FineRoughness": ("patch",),
     "Plan": ("force", "validity"),
     "ContactPlan": ("heights", "memory", "rigid_approach", "with_loading"),
