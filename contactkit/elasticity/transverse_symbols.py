@@ -69,8 +69,6 @@ def one_axis_symbol(
     The datum counts indentation moduli in place of shear moduli.
     """
     moduli = [plane_strain_modulus(one) for one in layers.solids]
-    stiff = [m for one in layers.solids for m in (one.in_plane, 1.0 / one.shear)]
-    soft = [*stiff, *(1.0 / one.axial for one in layers.solids if one.axial)]
     bending = 0.0
     if layers.base is None:
         pairs = zip(layers.thickness, moduli, strict=False)
@@ -79,7 +77,7 @@ def one_axis_symbol(
         lambda shape, pixel_size: _coefficients(shape, pixel_size, layers),
         lambda radii: _table(layers, radii),
         _response(layers).long,
-        sum(layers.thickness) * max(stiff) / min(soft),
+        sum(layers.thickness) * max(moduli) / min(moduli),
         bending,
     )
     return one_axis.symbol_of(shape, pixel_size, solid, along)

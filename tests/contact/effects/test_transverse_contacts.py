@@ -35,6 +35,21 @@ def solved(scene, grid=24):
     return ck.solve(ck.plan(scene, ck.Accuracy(grid=grid)))
 
 
+def test_stiffnesses_are_those_given():
+    given = {"c11": 160.0, "c12": 30.0, "c13": 50.0, "c33": 60.0, "c44": 40.0}
+    made = ck.TransverselyIsotropicMaterial.from_stiffness(**given)
+    e1, e3, nu, along = made.young_modulus, made.axial_modulus, made.poisson_ratio, made.axial_ratio
+    compliance = [
+        [1.0 / e1, -nu / e1, -along / e3],
+        [-nu / e1, 1.0 / e1, -along / e3],
+        [-along / e3, -along / e3, 1.0 / e3],
+    ]
+    c11, c12, c13, c33, _ = given.values()
+    stiffness = [[c11, c12, c13], [c12, c11, c13], [c13, c13, c33]]
+    np.testing.assert_allclose(np.linalg.inv(compliance), stiffness, rtol=1e-12)
+    assert made.shear_modulus == 40.0
+
+
 @pytest.mark.parametrize("solid", [GRAPHITE, coated(GRAPHITE, 1e-3)], ids=["half-space", "thick"])
 def test_a_ball_meets_the_indentation_modulus(solid):
     result = solved(ball(solid, LAYERED if isinstance(solid, ck.Stack) else HALF), grid=48)
