@@ -52,7 +52,7 @@ class TransverseLayers(NamedTuple):
     """Materials of a layered solid, the top layer first, the substrate last.
 
     Constants, (n_layers + 1,), and thicknesses [m], (n_layers,). On a rigid `base` there is no
-    substrate: both are (n_layers,). Isotropic materials have theirs by `plane_constants`.
+    substrate: both are (n_layers,). Isotropic materials have theirs by `isotropic_constants`.
     """
 
     solids: tuple[PlaneConstants, ...]

@@ -1,11 +1,12 @@
 """Symbols of the pressure on transversely isotropic layers, in windows of any kind.
 
 The makers are those of isotropic layers (`layered`, `influence`, `one_axis`) with the compliance of
-`transverse_layers`; half-spaces without layers are isotropic ones of another modulus.
+`transverse_layers`. Isolated half-spaces without layers are isotropic ones of another modulus.
 """
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -30,14 +31,20 @@ Pair = tuple[float, float]
 def periodic_symbol(shape: Shape, pixel_size: Pair, layers: TransverseLayers) -> Array:
     """Normal compliance on the real-FFT grid of a periodic map, as `layered.normal_symbol` [m/Pa].
 
-    On a rigid base the mean pressure compresses the layers by ``sum h/c33`` of it.
+    Parameters
+    ----------
+    shape : tuple of int
+        Pixels (ny, nx) of the map.
+    pixel_size : tuple of float
+        Sides (dy, dx) of a pixel [m].
+    layers : TransverseLayers
+        The solid. On a rigid base a mean pressure compresses its layers by ``sum h/c33`` of it.
 
     Examples
     --------
     >>> from .transverse_isotropy import isotropic_constants
-    >>> one = isotropic_constants(1.0, 0.0)
-    >>> symbol = periodic_symbol((1, 4), (1.0, 1.0), TransverseLayers((one,), (2.0,), "bonded"))
-    >>> float(symbol[0, 0])
+    >>> sheet = TransverseLayers((isotropic_constants(1.0, 0.0),), (2.0,), "bonded")
+    >>> float(periodic_symbol((1, 4), (1.0, 1.0), sheet)[0, 0])
     2.0
     """
     mean = 0.0
@@ -52,11 +59,26 @@ def periodic_symbol(shape: Shape, pixel_size: Pair, layers: TransverseLayers) ->
 def isolated_symbol(shape: Shape, pixel_size: Pair, layers: TransverseLayers) -> Array:
     """Transform of the influence coefficients of an isolated contact, as `influence.symbol` [m/Pa].
 
+    Parameters
+    ----------
+    shape, pixel_size, layers
+        As of `periodic_symbol`.
+
     Raises
     ------
     DescriptionError
-        As `normal_compliance`, for no layers, or for a layer whose waves turn too often while they
-        decay.
+        As `normal_compliance`, or for a layer so stiff in shear that its waves turn over and over
+        before they decay: the table of the point load would leave more than 3e-9.
+
+    Examples
+    --------
+    A pixel on a half-space, Love's 4 ln(1 + sqrt 2)/pi:
+
+    >>> from .transverse_isotropy import isotropic_constants
+    >>> symbol = isolated_symbol(
+    ...     (1, 1), (1.0, 1.0), TransverseLayers((isotropic_constants(1.0, 0.0),)))
+    >>> round(float(np.fft.irfft2(symbol, s=(2, 2))[0, 0]), 4)
+    1.1222
     """
     return influence.symbol_of(_coefficients(shape, pixel_size, layers))
 
@@ -66,7 +88,26 @@ def one_axis_symbol(
 ) -> Array:
     """Transform of the coefficients of a window that repeats along an axis, as `one_axis.symbol`.
 
-    The datum counts indentation moduli in place of shear moduli.
+    Parameters
+    ----------
+    shape, pixel_size, layers
+        As of `periodic_symbol`.
+    along : {"x", "y"}
+        Axis along which the window repeats. The datum across it is that of `one_axis.reference`,
+        with indentation moduli in place of shear moduli.
+
+    Raises
+    ------
+    DescriptionError
+        As `isolated_symbol`.
+
+    Examples
+    --------
+    >>> from .transverse_isotropy import isotropic_constants
+    >>> film, steel = isotropic_constants(1.0, 0.4), isotropic_constants(4.0, 0.3)
+    >>> layers = TransverseLayers((film, steel), (0.5,))
+    >>> one_axis_symbol((2, 6), (1.0, 1.0), layers, "x").shape
+    (4, 4)
     """
     moduli = [plane_strain_modulus(one) for one in layers.solids]
     bending = 0.0
@@ -74,8 +115,8 @@ def one_axis_symbol(
         pairs = zip(layers.thickness, moduli, strict=False)
         bending = sum(h * max(float(np.cbrt(m / moduli[-1])) - 1.0, 0.0) for h, m in pairs)
     solid = one_axis.Solid(
-        lambda shape, pixel_size: _coefficients(shape, pixel_size, layers),
-        lambda radii: _table(layers, radii),
+        partial(_coefficients, layers=layers),
+        partial(_table, layers) if layers.thickness else None,
         _response(layers).long,
         sum(layers.thickness) * max(moduli) / min(moduli),
         bending,
@@ -116,6 +157,9 @@ def _check_turns(solid: PlaneConstants) -> None:
 
 
 def _coefficients(shape: Shape, pixel_size: Pair, layers: TransverseLayers) -> Array:
+    if not layers.thickness:
+        modulus = plane_strain_modulus(layers.solids[0])
+        return influence.coefficients(shape, pixel_size, [modulus], [0.0])
     (ny, nx), (dy, dx) = shape, pixel_size
     diagonal = float(np.hypot((nx + 1.0) * dx, (ny + 1.0) * dy))
     load = _table(layers, point_load.Radii(0.5 * min(dx, dy), diagonal))

@@ -172,7 +172,7 @@ def _indentation(contact: SolvedContact, thickness: float) -> ValidityNumber:
 def _cited(effect: Compliance, scene: ContactScene) -> tuple[str, ...]:
     first, free, two, *base, axis = effect.sources
     stacks = scene.interface.stacks
-    found = [] if all(s.layers and not s.is_isotropic for s in stacks) else [first]
+    found = [first] if any(stack.is_isotropic for stack in stacks) else []
     if scene.window.periodic in (False, "x", "y"):
         found.append(free)
     if len(stacks) > 1:
@@ -202,21 +202,14 @@ def bodies_of(interface: Interface) -> tuple[Layers | None, Layers | None]:
 
 def symbol_maker(stack: Stack, grid: Grid) -> SymbolMaker:
     """Return what makes the symbol of a solid on any grid of a window."""
-    if stack.layers and not stack.is_isotropic:
+    if not stack.is_isotropic:
         return partial(_of_transverse, layers=_transverse_layers(stack), grid=grid)
-    layers = layers_of(stack) if stack.is_isotropic else _equal_half_space(stack)
+    layers = layers_of(stack)
     if grid.along:
         return partial(_along_one_axis, layers=layers, along=grid.along, finest=grid.shape)
     if grid.periodic:
         return partial(_periodic, layers=layers)
     return partial(_isolated, layers=layers, finest=grid.shape)
-
-
-def _equal_half_space(stack: Stack) -> Layers:
-    """Isotropic half-space of the compliance under pressure of one that is not."""
-    from ...elasticity.layer_stack import Layers
-
-    return Layers([stack.materials[0].plane_strain_modulus], [0.0])
 
 
 def _transverse_layers(stack: Stack) -> TransverseLayers:
