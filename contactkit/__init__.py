@@ -150,9 +150,9 @@ if TYPE_CHECKING:
         SelfAffineRoughness,
     )
     from .scene.scenes import ContactScene, SeparationScene, SlidingScene
+    from .scene.solids.transverse import TransverselyIsotropicMaterial
+    from .scene.solids.viscoelastic import ViscoelasticMaterial
     from .scene.surfaces import FineRoughness, Flat, Paraboloid, Sphere, Wave
-    from .scene.transverse import TransverselyIsotropicMaterial
-    from .scene.viscoelastic import ViscoelasticMaterial
     from .scene.window import Window
     from .separation.deforming.effects import ElasticBodies, SolidContact
     from .separation.deforming.plan import DeformingPlan
@@ -299,14 +299,14 @@ _HOMES = {
     "SubsurfaceStress": "contact.effects.stress",
     "TangentialStep": "scene.loading",
     "TensionLimit": "separation.effects.viscous",
-    "TransverselyIsotropicMaterial": "scene.transverse",
+    "TransverselyIsotropicMaterial": "scene.solids.transverse",
     "TroutonForce": "separation.wetting.trouton",
     "Union": "scene.planforms",
     "ValidityWarning": "errors",
     "VanDerWaalsForce": "separation.effects.adhesion",
     "Vent": "scene.faces",
     "Vibration": "scene.loading",
-    "ViscoelasticMaterial": "scene.viscoelastic",
+    "ViscoelasticMaterial": "scene.solids.viscoelastic",
     "Viscoelasticity": "contact.effects.viscoelasticity",
     "ViscousForce": "separation.effects.viscous",
     "Wave": "scene.surfaces",

@@ -134,8 +134,8 @@ SOLIDS: Registry[Any] = Registry(
     "solid",
     {
         "material": "scene.materials:Material",
-        "viscoelastic": "scene.viscoelastic:ViscoelasticMaterial",
-        "transversely-isotropic": "scene.transverse:TransverselyIsotropicMaterial",
+        "viscoelastic": "scene.solids.viscoelastic:ViscoelasticMaterial",
+        "transversely-isotropic": "scene.solids.transverse:TransverselyIsotropicMaterial",
         "stack": "scene.materials:Stack",
     },
     tag="kind",

@@ -93,7 +93,7 @@ def symbol(
 
 
 class Solid(NamedTuple):
-    """What coefficients along one axis need of a solid.
+    """A solid, as coefficients along one axis take it.
 
     Attributes
     ----------

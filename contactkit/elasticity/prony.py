@@ -10,7 +10,7 @@ E*(s)     s times the Laplace transform of E(t), at a rate s [1/s]; E*(i omega) 
           complex modulus. E*(s) J*(s) = 1.
 ========  =========================================================================
 
-Arguments are not checked: `scene.viscoelastic` and `fit_prony` are the entry points.
+Arguments are not checked: `scene.solids.viscoelastic` and `fit_prony` are the entry points.
 """
 
 from __future__ import annotations

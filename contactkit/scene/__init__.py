@@ -1,8 +1,7 @@
 """Scene objects: bodies, liquids, interface, loading and scenes; base classes of plan and result.
 
 materials            Materials, and stacks of layers bonded to a substrate.
-transverse           Transversely isotropic materials, whose axis is the normal.
-viscoelastic         Viscoelastic materials, whose modulus relaxes.
+solids               Viscoelastic and transversely isotropic materials.
 surfaces             Base class of all surfaces; flat, sphere, paraboloid and wave.
 planforms            Planforms of a face: discs, rings, rectangles, images, and their sums.
 faces                Holes and recesses of a face.

@@ -31,7 +31,7 @@ TOPICS = (
     Topic(
         "bodies",
         "Bodies and materials",
-        _of("scene", "materials", "transverse", "viscoelastic", "asperity_population"),
+        _of("scene", "materials", "solids", "asperity_population"),
     ),
     Topic(
         "surfaces",

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from attrs import Attribute, field, frozen
 
-from ..errors import DescriptionError
-from ..units import si
-from ..validators import finite, positive, refuse
-from .materials import Material
+from ...errors import DescriptionError
+from ...units import si
+from ...validators import finite, positive, refuse
+from ..materials import Material
 
 if TYPE_CHECKING:
-    from ..elasticity.transverse_isotropy import PlaneConstants
+    from ...elasticity.transverse_isotropy import PlaneConstants
 
 __all__ = ["TransverselyIsotropicMaterial"]
 
@@ -67,7 +67,7 @@ class TransverselyIsotropicMaterial(Material):
     >>> [round(one / 1e9, 1) for one in (zinc.young_modulus, zinc.axial_modulus)]
     [119.4, 35.3]
     >>> round(zinc.plane_strain_modulus / 1e9, 1)
-    80.9
+    67.8
     """
 
     kind: ClassVar[str] = "transversely-isotropic"
@@ -95,7 +95,7 @@ class TransverselyIsotropicMaterial(Material):
     @property
     def plane_constants(self) -> PlaneConstants:
         """See `Material.plane_constants`."""
-        from ..elasticity.transverse_isotropy import plane_constants
+        from ...elasticity.transverse_isotropy import plane_constants
 
         return plane_constants(
             self.young_modulus,
@@ -108,7 +108,7 @@ class TransverselyIsotropicMaterial(Material):
     @property
     def plane_strain_modulus(self) -> float:
         """Modulus of indentation along the axis [Pa]: the contact modulus against a rigid body."""
-        from ..elasticity.transverse_isotropy import plane_strain_modulus
+        from ...elasticity.transverse_isotropy import plane_strain_modulus
 
         return plane_strain_modulus(self.plane_constants)
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from attrs import Attribute, field, frozen
 
-from ..errors import DescriptionError, PlanError
-from ..units import si
-from ..validators import as_tuple, positive, refuse
-from .materials import Material, needs_time
+from ...errors import DescriptionError, PlanError
+from ...units import si
+from ...validators import as_tuple, positive, refuse
+from ..materials import Material, needs_time
 
 if TYPE_CHECKING:
-    from ..elasticity.prony import PronySeries
-    from ..elasticity.transverse_isotropy import PlaneConstants
+    from ...elasticity.prony import PronySeries
+    from ...elasticity.transverse_isotropy import PlaneConstants
 
 __all__ = ["ViscoelasticMaterial"]
 
@@ -94,7 +94,7 @@ class ViscoelasticMaterial(Material):
     @property
     def relaxation(self) -> PronySeries:
         """Relaxation modulus E(t) as a Prony series of moduli [Pa]."""
-        from ..elasticity.prony import PronySeries
+        from ...elasticity.prony import PronySeries
 
         moduli = [self.young_modulus * one for one in self.fractions]
         rest = self.young_modulus * math.fsum((1.0, *(-one for one in self.fractions)))
@@ -108,7 +108,7 @@ class ViscoelasticMaterial(Material):
         rate : float
             Real rate s [1/s]: 0 at equilibrium, inf at once.
         """
-        from ..elasticity.prony import modulus_at_rate
+        from ...elasticity.prony import modulus_at_rate
 
         return Material(
             name=self.name,
@@ -201,7 +201,7 @@ class ViscoelasticMaterial(Material):
         >>> made.source
         'Prony series of 3 terms, fitted to 3 points: rms error 1.66%, largest 2.19%'
         """
-        from ..elasticity.prony import fit_prony
+        from ...elasticity.prony import fit_prony
 
         fit = fit_prony(frequency, storage, loss, terms_per_decade)
         error = (
