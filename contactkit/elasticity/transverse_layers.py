@@ -196,11 +196,11 @@ def normal_compliance(wavenumber: ArrayLike, layers: TransverseLayers) -> Array:
 
     Notes
     -----
-    Small strains. Against matrix exponentials of up to 2000 digits the relative error was below
-    1e-14 for 1 to 3 layers whose stiffnesses c11 and c33 are between 1e-3 and 1e3 and c44 within a
-    factor of 1e4 of their mean, c13^2/(c11 c33) up to 1 - 1e-9, and below 2e-13 where they are
-    between 1e-5 and 1e5; of isotropic layers it agrees with `layered.compliance` within 2e-15. A
-    half-space has ``C = 2/(M alpha)`` with M of `indentation_modulus`; long waves on a bonded base
+    Small strains. Against matrix exponentials of up to 2000 digits, on 7000 random stacks of 1 to 3
+    layers with c11 and c33 between 1e-5 and 1e5 and c13^2 up to 1 - 1e-9 of their product, the
+    relative error was 3e-14 at most with c44 within a factor of 30 of their mean, 3e-13 within 1e4.
+    It grows as the larger root over the smaller. Of isotropic layers it agrees with
+    `layered.compliance` within 2e-15. A half-space has ``C = 2/(M alpha)`` with M of `indentation_modulus`; long waves on a bonded base
     meet ``sum h/c33``.
 
     References
