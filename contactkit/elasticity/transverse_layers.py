@@ -200,8 +200,8 @@ def normal_compliance(wavenumber: ArrayLike, layers: TransverseLayers) -> Array:
     layers with c11 and c33 between 1e-5 and 1e5 and c13^2 up to 1 - 1e-9 of their product, the
     relative error was 3e-14 at most with c44 within a factor of 30 of their mean, 3e-13 within 1e4.
     It grows as the larger root over the smaller. Of isotropic layers it agrees with
-    `layered.compliance` within 2e-15. A half-space has ``C = 2/(M alpha)`` with M of `indentation_modulus`; long waves on a bonded base
-    meet ``sum h/c33``.
+    `layered.compliance` within 2e-15. A half-space has ``C = 2/(M alpha)`` with M of
+    `indentation_modulus`; long waves on a bonded base meet ``sum h/c33``.
 
     References
     ----------

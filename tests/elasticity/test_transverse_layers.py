@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from decimal import Decimal, localcontext
+
 import numpy as np
 import pytest
 import scipy.linalg
@@ -87,6 +90,60 @@ def test_layers_solve_the_equations_of_equilibrium(order, base):
     for alpha in (0.05, 0.4, 1.5):
         found = float(normal_compliance(alpha, layers_of(stack, thickness, base)))
         assert found == pytest.approx(by_exponentials(alpha, stack, thickness, base), rel=1e-8)
+
+
+def exponential(rows, length):
+    """Matrix exponential in decimals, by scaling and squaring."""
+    halvings = 8 + max(0, math.frexp(max(abs(v) for v in rows.ravel()) * length)[1])
+    step = rows * (length / 2**halvings)
+    total = term = np.array([[Decimal(int(i == j)) for j in range(4)] for i in range(4)])
+    for k in range(1, 40):
+        term = term @ step / k
+        total = total + term
+    for _ in range(halvings):
+        total = total @ total
+    return total
+
+
+def exact_constants(stiffness):
+    c11, c13, c33, c44 = (Decimal(v) for v in stiffness)
+    return PlaneConstants(*map(float, (c11 - c13 * c13 / c33, c13 / c33, 1 / c33, 1 / c44)))
+
+
+def by_digits(alpha, stiffnesses, thickness, base):
+    """As `by_exponentials`, in so many digits that none is lost to growing waves."""
+    states = np.array([[Decimal(0)] * 2 for _ in range(4)])
+    states[2 if base == "bonded" else 0, 0] = states[3, 1] = Decimal(1)
+    for stiffness, h in reversed(list(zip(stiffnesses, thickness, strict=True))):
+        c11, c13, c33, c44 = (Decimal(v) for v in stiffness)
+        rows = np.full((4, 4), Decimal(0))
+        rows[0, 1], rows[0, 2], rows[1, 0], rows[1, 3] = Decimal(-1), 1 / c44, c13 / c33, 1 / c33
+        rows[2, 0], rows[2, 3], rows[3, 2] = c11 - c13 * c13 / c33, -c13 / c33, Decimal(1)
+        states = exponential(-rows, Decimal(alpha) * Decimal(h)) @ states
+    (_, _), (w1, w2), (t1, t2), (s1, s2) = states
+    return float((w1 * t2 - w2 * t1) / (t1 * s2 - t2 * s1) / Decimal(alpha))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(8))
+def test_the_error_is_round_off_for_stiffnesses_that_differ_a_million_times(seed):
+    rng, decades = np.random.default_rng(seed), 3.0
+    for base in ("bonded", "frictionless"):
+        stack = []
+        for _ in range(2):
+            c11, c33 = 10.0 ** rng.uniform(-decades, decades, 2)
+            mean = np.sqrt(c11 * c33)
+            share = rng.choice([rng.uniform(-0.5, 0.9), 1.0 - 10.0 ** rng.uniform(-6.0, -1.0)])
+            stack.append(Stiffness(c11, share * mean, c33, mean * 10.0 ** rng.uniform(-1.5, 1.0)))
+        thickness = tuple(10.0 ** rng.uniform(-1.0, 1.0, 2))
+        fastest = sum(h * roots_of(constants(s)).sum for s, h in zip(stack, thickness, strict=True))
+        for turns in (1e-4, 0.1, 5.0, 100.0):
+            alpha = turns / fastest
+            with localcontext(prec=400):
+                solids = tuple(exact_constants(one) for one in stack)
+                expected = by_digits(alpha, stack, thickness, base)
+            found = normal_compliance(alpha, TransverseLayers(solids, thickness, base))
+            assert float(found) == pytest.approx(expected, rel=1e-12)
 
 
 @each_base
