@@ -59,15 +59,15 @@ def check_sizes(contact: SolvedContact, *, even: bool) -> tuple[ValidityNumber, 
 
 def _modulus(contact: SolvedContact) -> ValidityNumber:
     materials = [m for stack in contact.scene.interface.stacks for m in stack.materials]
-    softest = min(materials, key=lambda one: one.young_modulus)
-    stiffest = max(materials, key=lambda one: one.young_modulus)
-    one = stiffest if stiffest.young_modulus > _STIFFEST else softest
+    moduli = [(value, material.name) for material in materials for value in material.young_moduli]
+    softest, stiffest = min(moduli), max(moduli)
+    value, name = stiffest if stiffest[0] > _STIFFEST else softest
     return ValidityNumber(
         name="Young's modulus [Pa]",
-        value=one.young_modulus,
+        value=value,
         low=_SOFTEST,
         high=_STIFFEST,
-        detail=f"of {one.name!r}; from gelatine to twice that of diamond; check its unit: 210 GPa "
+        detail=f"of {name!r}; from gelatine to twice that of diamond; check its unit: 210 GPa "
         "are 210e9 Pa",
     )
 

@@ -105,6 +105,11 @@ class Material(Solid):
         return Stack(substrate=self)
 
     @property
+    def young_moduli(self) -> tuple[float, ...]:
+        """Young's moduli of its directions [Pa]."""
+        return (self.young_modulus,)
+
+    @property
     def plane_constants(self) -> PlaneConstants:
         """Constants of waves in a plane through the normal, in which solids with an axis differ."""
         from ..elasticity.transverse_isotropy import isotropic_constants

@@ -93,6 +93,11 @@ class TransverselyIsotropicMaterial(Material):
             ) from None
 
     @property
+    def young_moduli(self) -> tuple[float, ...]:
+        """Young's moduli in the plane and along the axis [Pa]."""
+        return self.young_modulus, self.axial_modulus
+
+    @property
     def plane_constants(self) -> PlaneConstants:
         """See `Material.plane_constants`."""
         from ...elasticity.transverse_isotropy import plane_constants

@@ -98,6 +98,12 @@ def test_a_bound_of_one_hardness_needs_no_modulus():
     assert float(found.pressure.max()) == pytest.approx(0.9 * elastic, rel=1e-9)
 
 
+def test_a_mistaken_unit_of_the_axis_shows():
+    slip = evolve(GRAPHITE, axial_modulus=36.0, axial_ratio=0.0)  # GPa
+    with pytest.warns(ck.ValidityWarning, match=r"Young's modulus \[Pa\] = 36 .*graphite"):
+        ck.solve(ck.plan(ball(slip, HALF, force=1e-9), ck.Accuracy(grid=16)))
+
+
 SLIP = ck.PartialSlip(coefficient=0.2, path=(ck.TangentialStep(ratio=0.5),))
 FRICTION = ck.FrictionTraction(coefficient=0.2)
 
