@@ -34,8 +34,11 @@ FAST = {"reassoc", "contract", "arcp", "nsz", "nnan"}
 
 
 def scale_spectrum(spectrum: Array, symbol: Array) -> None:
-    """Multiply a spectrum by a real symbol, or the half of a mirrored one, in place."""
-    for i in prange(spectrum.shape[0]):
+    """Multiply a spectrum by a real symbol, or the half of a mirrored one, in place.
+
+    Serial: the threads of a transform have each their part of the spectrum.
+    """
+    for i in range(spectrum.shape[0]):
         row = i if i < symbol.shape[0] else spectrum.shape[0] - i
         for j in range(spectrum.shape[1]):
             spectrum[i, j] *= symbol[row, j]
@@ -424,9 +427,8 @@ def cell_rows(
     return values
 
 
-SERIAL = (free_set, block_sums, apply_factor)
+SERIAL = (scale_spectrum, free_set, block_sums, apply_factor)
 THREADED = (
-    scale_spectrum,
     reduce_gap,
     free_sums,
     violation,
@@ -462,7 +464,7 @@ def compiled(threaded: bool) -> SimpleNamespace:
     The first use of a function in a fresh installation costs its compilation, some ten seconds for
     all of them; later processes load them from the cache.
     """
-    serial = {f.__name__: numba.njit(f, cache=True, fastmath=FAST) for f in SERIAL}
+    serial = {f.__name__: numba.njit(f, cache=True, fastmath=FAST, nogil=True) for f in SERIAL}
     rest = {
         f.__name__: numba.njit(f, cache=True, fastmath=FAST, parallel=threaded) for f in THREADED
     }
