@@ -17,7 +17,7 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from .fft_pieces import LINE, PiecewiseConvolution, by_ducc, by_scipy, collides, in_threads
+from .fft_pieces import LINE, PiecewiseConvolution, by_ducc, by_scipy, collides, in_threads, scaled
 
 __all__ = [
     "Edges",
@@ -92,7 +92,10 @@ def _ducc_periodic(
     back = {**forth, "forward": False, "allow_overwriting_input": True}
     crew = threads if spectrum.nbytes > CACHED_BYTES else 1
     width = -(-spectrum.shape[1] // crew)
-    parts = [(spectrum[:, i : i + width], symbol[:, i : i + width]) for i in range(0, symbol.shape[1], width)]
+    parts = [
+        (spectrum[:, i : i + width], symbol[:, i : i + width])
+        for i in range(0, symbol.shape[1], width)
+    ]
 
     def transform(source: Array, target: Array) -> None:
         fft.r2c(source, out=spectrum, **forth)
@@ -135,7 +138,8 @@ def spectrum_shape(
 
 def _is_large(half: tuple[int, int], kind: Any) -> bool:
     """Whether a spectrum of the padded map is beyond the cache."""
-    return half[0] * half[1] * 2 * np.dtype(kind).itemsize > CACHED_BYTES
+    size = 2 * int(np.dtype(kind).itemsize)
+    return half[0] * half[1] * size > CACHED_BYTES
 
 
 def make_transform(
@@ -153,8 +157,7 @@ def make_transform(
     ----------
     symbol : ndarray
         Real symbol on the half spectrum: ``(ny, nx // 2 + 1)`` if periodic, else that of the
-        doubled map, ``(2 ny, nx + 1)``; or `mirrored_half` of it. Its dtype is the precision of the
-        transforms.
+        doubled map, ``(2 ny, nx + 1)``; or `mirrored_half` of it.
     shape : tuple of int
         Pixels ``(ny, nx)`` of the map.
     periodic : bool, "x" or "y"
@@ -167,7 +170,8 @@ def make_transform(
     scale : callable
         In-place product of spectrum and symbol; several threads may call it at once.
     spectrum : ndarray, optional
-        Where to work: complex, of the shape `spectrum_shape`.
+        Where to work: complex, of the shape `spectrum_shape`. Its precision is that of the
+        transforms; without it that of the symbol is.
 
     Examples
     --------
@@ -178,18 +182,19 @@ def make_transform(
     True
     """
     along_y, along_x = (periodic in (True, axis) for axis in ("y", "x"))
-    height, width = shape[0] * (1 if along_y else 2), shape[1] * (1 if along_x else 2)
-    symbol = symbol / (height * width)  # once, instead of after every inverse transform
-    half = height, symbol.shape[1]
+    padded = shape[0] * (1 if along_y else 2), shape[1] * (1 if along_x else 2)
+    half = padded[0], symbol.shape[1]
     if spectrum is None:
         kind = np.result_type(symbol.dtype, np.complex64)
         spectrum = np.zeros(spectrum_shape(half, symbol.dtype, periodic, fast), kind)
     spectrum = spectrum[:, : symbol.shape[1]]
-    if fast and periodic is True and not collides(shape[1], symbol.dtype):
+    kind = spectrum.real.dtype
+    if fast and periodic is True and not collides(shape[1], kind):
+        symbol = scaled(symbol, padded, kind)
         return _ducc_periodic(symbol, threads, scale, spectrum, shape[1])
-    lines, padded = by_ducc() if fast else by_scipy(), (height, width)
+    lines = by_ducc() if fast else by_scipy()
     # Strips of columns that are not padded cost 5 % on one thread.
-    in_strips = _is_large(half, symbol.dtype) and (threads > 1 or not along_y)
+    in_strips = _is_large(half, kind) and (threads > 1 or not along_y)
     return PiecewiseConvolution(symbol, shape, padded, spectrum, lines, scale, threads, in_strips)
 
 

@@ -18,7 +18,15 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-__all__ = ["Lines", "PiecewiseConvolution", "by_ducc", "by_scipy", "collides", "in_threads"]
+__all__ = [
+    "Lines",
+    "PiecewiseConvolution",
+    "by_ducc",
+    "by_scipy",
+    "collides",
+    "in_threads",
+    "scaled",
+]
 
 Array = NDArray[Any]
 Scale = Callable[[Array, Array], None]
@@ -103,7 +111,18 @@ def collides(width: int, kind: Any) -> bool:
     (True, False, False)
     """
     size = np.dtype(kind).itemsize
-    return size == 4 and width * size % PITCH == 0
+    return bool(size == 4 and width * size % PITCH == 0)
+
+
+def scaled(symbol: Array, padded: tuple[int, int], kind: Any) -> Array:
+    """A symbol over the number of padded pixels, once, instead of after every inverse transform.
+
+    Examples
+    --------
+    >>> scaled(np.array([8.0]), (2, 2), np.float32)
+    array([2.], dtype=float32)
+    """
+    return np.divide(symbol, padded[0] * padded[1], dtype=kind, casting="same_kind", order="C")
 
 
 @contextmanager
@@ -114,7 +133,7 @@ def in_threads(threads: int) -> Iterator[Callable[[Callable[[Any], None], Sequen
     kept would be missing in processes that are forked.
     """
     if threads == 1:
-        yield lambda work, pieces: [work(piece) for piece in pieces]
+        yield lambda work, pieces: list(map(work, pieces))
         return
     from concurrent.futures import ThreadPoolExecutor
 
@@ -132,8 +151,7 @@ class PiecewiseConvolution:
     Parameters
     ----------
     symbol : ndarray
-        Real symbol on the half spectrum of the padded map, or the half of it that the rest mirrors,
-        over the number of padded pixels.
+        Real symbol on the half spectrum of the padded map, or the half of it that the rest mirrors.
     shape, padded : tuple of int
         Pixels ``(ny, nx)`` of the map, and with the zeros that keep its images apart.
     spectrum : ndarray
@@ -153,7 +171,7 @@ class PiecewiseConvolution:
     --------
     >>> def scale(waves, symbol):
     ...     waves *= symbol
-    >>> symbol, spectrum = np.full((4, 3), 2.0 / 16), np.zeros((4, 3), complex)
+    >>> symbol, spectrum = np.full((4, 3), 2.0), np.zeros((4, 3), complex)
     >>> convolve = PiecewiseConvolution(symbol, (4, 4), (4, 4), spectrum, by_scipy(), scale)
     >>> source, target = np.eye(4), np.zeros((4, 4))
     >>> convolve(source, target)
@@ -176,14 +194,15 @@ class PiecewiseConvolution:
         self.spectrum, self.lines, self.scale = spectrum, lines, scale
         self.in_strips, self.crew = in_strips, threads if in_strips else 1
         self.threads = 1 if in_strips else threads  # of the library
-        kind, size = symbol.dtype, symbol.dtype.itemsize
+        kind, size = spectrum.real.dtype, spectrum.real.dtype.itemsize
         self.is_direct = self.width == self.nx and not collides(self.width, kind)
         count = min(self.ny, max(8, ROWS_BYTES // (self.width * size)) * self.threads)
         self.rows = _parts(self.ny, count)
+        self.n_padded = height * self.width
         self.is_bare = height == self.ny
         self.strips = _parts(symbol.shape[1], STRIP if in_strips else symbol.shape[1])
         self.numbers = range(len(self.strips))
-        self.symbols = [np.ascontiguousarray(symbol[:, strip]) for strip in self.strips]
+        self.symbols = [scaled(symbol[:, strip], padded, kind) for strip in self.strips]
         # Room of each thread, for some rows and for a strip.
         self.some: SimpleQueue[Array] = SimpleQueue()
         self.strip: SimpleQueue[Array] = SimpleQueue()
@@ -192,6 +211,10 @@ class PiecewiseConvolution:
                 self.some.put(np.zeros((count, self.width + LINE // size), kind)[:, : self.width])
             if in_strips and not self.is_bare:
                 self.strip.put(np.zeros(height * STRIP, spectrum.dtype))
+
+    def symbol(self) -> Array:
+        """The symbol as a new array, in the precision of the transforms."""
+        return np.asarray(np.hstack(self.symbols) * self.n_padded)
 
     def __call__(self, source: Array, target: Array) -> None:
         """Convolve a map into another, which may be the same."""

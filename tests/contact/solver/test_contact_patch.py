@@ -44,7 +44,7 @@ def test_on_its_pixels_a_patch_displaces_like_the_whole_map(pixels, fast):
     values = np.random.default_rng(2).random(at.size)
     pressure = np.zeros(shape)
     pressure.ravel()[at] = values
-    patch = Patch(influence(shape, pixel_size), Transforms(fast=fast))
+    patch = Patch(lambda: influence(shape, pixel_size), shape, Transforms(fast=fast))
     small = patch.take(at)
     assert small is not None
     assert small.shape[0] * small.shape[1] < 0.61 * shape[0] * shape[1]
@@ -65,7 +65,7 @@ def test_the_symbol_of_a_patch_as_wide_as_the_map_is_that_of_the_map():
 
 
 def test_a_patch_is_kept_while_it_fits_and_none_is_made_of_most_of_the_map():
-    patch = Patch(influence((64, 64), (1.0, 1.0)))
+    patch = Patch(lambda: influence((64, 64), (1.0, 1.0)), (64, 64))
     corner = np.array([0, 20 * 64 + 20])
     first = patch.take(corner)
     assert patch.take(corner + 30 * 64 + 30) is first
