@@ -12,11 +12,13 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from typing import NamedTuple
 
 import numpy as np
+import scipy.fft
 from numpy.typing import NDArray
 
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError
@@ -144,10 +146,19 @@ class ContactSolver:
         self.shape = (int(shape[0]), int(shape[1]))
         self.pixel_size = (float(pixel_size[0]), float(pixel_size[1]))
         self.periodic = periodic
-        self.grids, self.self_influence = prepare(
-            self.shape, self.pixel_size, make_symbol, periodic, int(threads), fast
-        )
+        self.threads = int(threads)
+        with scipy.fft.set_workers(self.threads):
+            self.grids, self.self_influence = prepare(
+                self.shape, self.pixel_size, make_symbol, periodic, self.threads, fast
+            )
         self._lock = threading.Lock()
+
+    @contextmanager
+    def _at_work(self) -> Iterator[None]:
+        """Have the work arrays alone, and everything on the threads of the solver."""
+        loops = self.grids[0].loops
+        with self._lock, scipy.fft.set_workers(self.threads), loops.on_threads(self.threads):
+            yield
 
     @property
     def nbytes(self) -> int:
@@ -166,7 +177,7 @@ class ContactSolver:
         if p.shape != self.shape:
             raise DescriptionError("pressure", p.shape, f"have the shape {self.shape}")
         fine = self.grids[0]
-        with self._lock:
+        with self._at_work():
             fine.pressure[...] = p
             fine.displace(True)
             return fine.gap * self.self_influence
@@ -234,7 +245,7 @@ class ContactSolver:
             raise DescriptionError("rtol", rtol, "be positive and finite")
         problem = pose(heights, self.self_influence, mean_pressure, rigid_approach, bound)
         self._refuse_closed_gap(problem)
-        with self._lock:
+        with self._at_work():
             begun = time.perf_counter()
             started = self._reset(problem, start, mean_pressure, rigid_approach)
             p = known_pressure(problem)
@@ -281,7 +292,7 @@ class ContactSolver:
             If the residual stays above ten times the tolerance.
         """
         at, own = np.flatnonzero(free), self.self_influence
-        with self._lock:
+        with self._at_work():
             for grid in self.grids:
                 grid.reset()
             given = np.asarray(right, dtype=np.float64).ravel()[at] / own

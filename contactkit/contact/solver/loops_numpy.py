@@ -17,6 +17,7 @@ d, q      search direction and its displacement, on the same
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -42,6 +43,7 @@ __all__ = [
     "cell_rows",
     "apply_factor",
     "lattice_neighbours",
+    "on_threads",
     "pattern_rows",
     "sparse_factor",
     "violation",
@@ -91,6 +93,11 @@ class LineStep(NamedTuple):
 
     length: float
     squared_residual: float
+
+
+def on_threads(count: int) -> AbstractContextManager[None]:
+    """Have the loops take a number of threads, within a ``with``: these take one."""
+    return nullcontext()
 
 
 def dot(a: Array, b: Array) -> float:
