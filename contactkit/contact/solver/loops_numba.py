@@ -64,15 +64,16 @@ def add_change(g: Array, change: Array) -> None:
 
 
 def free_sums(p: Array, g: Array, upper: Array) -> FreeSums:
-    """Sums of p and p g over the pixels between the bounds, and the number of these."""
+    """Sums of p and p g over the pixels between the bounds, their number, and the sum of all p."""
     many = 0 if upper.size == 1 else 1
-    weight, weighted, free = 0.0, 0.0, 0
+    weight, weighted, free, total = 0.0, 0.0, 0, 0.0
     for k in prange(p.size):
+        total += p[k]
         if 0.0 < p[k] < upper[k * many]:
             weight += p[k]
             weighted += p[k] * g[k]
             free += 1
-    return FreeSums(weight, weighted, free)
+    return FreeSums(weight, weighted, free, total)
 
 
 def violation(p: Array, g: Array, upper: Array, approach: float) -> Violation:
@@ -469,7 +470,8 @@ THREADED = (
 def _on_threads(count: int) -> Iterator[None]:
     """Have the loops of this thread take a number of threads, as far as numba has them."""
     before = numba.get_num_threads()
-    numba.set_num_threads(min(count, numba.config.NUMBA_NUM_THREADS))
+    most = numba.config.NUMBA_NUM_THREADS  # type: ignore[attr-defined]
+    numba.set_num_threads(min(count, most))
     try:
         yield
     finally:

@@ -66,11 +66,12 @@ LIFT = 1.0 + 1e-7  # of the diagonal of small matrices, which may be singular to
 
 
 class FreeSums(NamedTuple):
-    """Sums of p and of p g over the pixels between the bounds, and the number of these."""
+    """Sums of p and of p g over the pixels between the bounds, their number, and the sum of all."""
 
     pressure: float
     weighted_gap: float
     n_pixels: int
+    total: float
 
 
 class Violation(NamedTuple):
@@ -118,10 +119,12 @@ def add_change(g: Array, change: Array) -> None:
 
 
 def free_sums(p: Array, g: Array, upper: Array) -> FreeSums:
-    """Sums of p and p g over the pixels between the bounds, and the number of these."""
+    """Sums of p and p g over the pixels between the bounds, their number, and the sum of all p."""
     free = np.flatnonzero((p > 0.0) & (p < upper))
     weight = p[free]
-    return FreeSums(float(weight.sum()), dot(weight, g[free]), free.size)
+    carried = float(weight.sum())
+    total = carried if np.isinf(upper).all() else float(p.sum())
+    return FreeSums(carried, dot(weight, g[free]), free.size, total)
 
 
 def violation(p: Array, g: Array, upper: Array, approach: float) -> Violation:

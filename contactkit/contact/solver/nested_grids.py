@@ -260,14 +260,21 @@ def _operator(symbols: _Symbols, shape: Shape) -> _Operator:
 
 
 def _two_level(
-    symbols: _Symbols, shape: Shape, of: _Operator, fast: bool, loops: Any, framed: Singles
+    symbols: _Symbols,
+    shape: Shape,
+    of: _Operator,
+    transforms: Transforms,
+    loops: Any,
+    framed: Singles,
 ) -> TwoLevel | None:
     if of.stencil is None:
         return None
     blocks, edges = None, symbols.periodic
     if max(shape) >= LEAST_BLOCKED:
         sides = block_shape(shape, symbols.pixel(shape), of.block)
-        blocks = CoarseBlocks(shape, sides, symbols(sides), edges, loops, fast, of.own)
+        if min(sides) < LEAST_THREADED:
+            transforms = transforms._replace(threads=1)
+        blocks = CoarseBlocks(shape, sides, symbols(sides), edges, loops, transforms, of.own)
     return TwoLevel(shape, edges is True, of.stencil, blocks, loops, framed)
 
 
@@ -328,7 +335,7 @@ def _grid(
         inverse=inverse,
         metric=metric,
         is_stiff=is_stiff,
-        two_level=_two_level(symbols, shape, of, fast, loops, maps.framed),
+        two_level=_two_level(symbols, shape, of, transforms, loops, maps.framed),
         few=int(FEW_STEEP * shape[0] * shape[1]) if is_steep else FEW,
         periodic=periodic,
         steepest=of.steepest,
