@@ -99,8 +99,11 @@ def _ducc_periodic(
 
     def transform(source: Array, target: Array) -> None:
         fft.r2c(source, out=spectrum, **forth)
-        with in_threads(crew) as each:
-            each(lambda part: scale(*part), parts)
+        if crew == 1:
+            scale(spectrum, symbol)
+        else:
+            with in_threads(crew) as each:
+                each(lambda part: scale(*part), parts)
         fft.c2r(spectrum, lastsize=nx, out=target, **back)
 
     return transform

@@ -9,8 +9,8 @@ bit on any number of threads.
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from queue import SimpleQueue
 from typing import Any, NamedTuple
 
@@ -30,6 +30,7 @@ __all__ = [
 
 Array = NDArray[Any]
 Scale = Callable[[Array, Array], None]
+Each = Callable[[Callable[[Any], None], Iterable[Any]], None]
 
 # These balance the calls of many small pieces against what spills from the cache; none changes a
 # result. Times below: free maps of 1024 x 1024 on one thread of a shared server, to 10 %.
@@ -125,20 +126,40 @@ def scaled(symbol: Array, padded: tuple[int, int], kind: Any) -> Array:
     return np.divide(symbol, padded[0] * padded[1], dtype=kind, casting="same_kind", order="C")
 
 
-@contextmanager
-def in_threads(threads: int) -> Iterator[Callable[[Callable[[Any], None], Sequence[Any]], object]]:
-    """Give ``each(function, pieces)``, which has all pieces done by some threads.
+def in_threads(threads: int) -> AbstractContextManager[Each]:
+    """Give ``each(function, pieces)``, which has all pieces done by some threads, within a ``with``.
 
     These are started for each convolution, which takes a hundred times as long: threads that were
     kept would be missing in processes that are forked.
+
+    Examples
+    --------
+    >>> with in_threads(2) as each:
+    ...     each(print, ["piece"])
+    piece
     """
-    if threads == 1:
-        yield lambda work, pieces: list(map(work, pieces))
-        return
+    return _pool(threads) if threads > 1 else _ALONE
+
+
+@contextmanager
+def _pool(threads: int) -> Iterator[Each]:
     from concurrent.futures import ThreadPoolExecutor
 
     with ThreadPoolExecutor(threads) as pool:
-        yield lambda work, pieces: list(pool.map(work, pieces))
+
+        def each(work: Callable[[Any], None], pieces: Iterable[Any]) -> None:
+            for _ in pool.map(work, pieces):  # which raises what a piece raised
+                pass
+
+        yield each
+
+
+def _one_by_one(work: Callable[[Any], None], pieces: Iterable[Any]) -> None:
+    for piece in pieces:
+        work(piece)
+
+
+_ALONE = nullcontext(_one_by_one)
 
 
 def _parts(size: int, step: int) -> list[slice]:
