@@ -127,7 +127,7 @@ def scaled(symbol: Array, padded: tuple[int, int], kind: Any) -> Array:
 
 
 def in_threads(threads: int) -> AbstractContextManager[Each]:
-    """Give ``each(function, pieces)``, which has all pieces done by some threads, within a ``with``.
+    """Give ``each(function, pieces)`` within a ``with``: all pieces are done by some threads.
 
     These are started for each convolution, which takes a hundred times as long: threads that were
     kept would be missing in processes that are forked.

@@ -8,7 +8,6 @@ import pytest
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.contact.solver.convolution import Convolution, Patch, Transforms, patch_symbol
 from contactkit.elasticity.influence import symbol
-from contactkit.numerics import fft as fft_backends
 
 MODULI, POISSON, NO_LAYERS = np.array([0.75]), (0.5,), ()
 
@@ -93,22 +92,6 @@ def test_a_ball_is_pressed_alike_with_and_without_a_patch(offset):
     most = without.pressure.max()
     np.testing.assert_allclose(with_patch.pressure, without.pressure, atol=1e-6 * most)
     assert with_patch.rigid_approach == pytest.approx(without.rigid_approach, rel=1e-7)
-
-
-@pytest.mark.parametrize("threads", [1, 2])
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_strips_of_columns_give_what_all_columns_give(monkeypatch, dtype, threads):
-    pytest.importorskip("ducc0")
-    shape = (21, 70)  # 71 columns are no whole number of strips
-    coefficients = half_space(shape, (1.0, 1.0))
-    given = (shape, coefficients, False, Transforms(threads, fast=True), dtype)
-    whole = Convolution(*given)
-    monkeypatch.setattr(fft_backends, "CACHED_BYTES", 0)
-    strips = Convolution(*given)
-    pressure = np.random.default_rng(4).random(shape)
-    expected = whole(pressure)
-    for _ in range(2):  # nothing may be left of the run before
-        np.testing.assert_allclose(strips(pressure), expected, rtol=30 * np.finfo(dtype).eps)
 
 
 def test_zeros_beyond_the_map_cost_no_applications():
