@@ -248,7 +248,7 @@ def _operator(symbols: _Symbols, shape: Shape) -> _Operator:
     is_poor = decay > PLATE or stiffening > STIFF
     return _Operator(
         half=half if half is symbol else half.copy(),
-        response=unit_response(symbol, shape, edges),
+        response=unit_response(half, shape, edges),
         own=symbols.own(symbol, shape),
         steepest=float(symbol.max()),
         decay=decay,

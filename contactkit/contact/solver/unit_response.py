@@ -22,8 +22,7 @@ def unit_response(symbol: Floats, shape: tuple[int, int], edges: Edges) -> Float
     Parameters
     ----------
     symbol : ndarray
-        Real symbol of the operator, as of `convolution.symbol_of`; of an isolated map the rows that
-        the others mirror are enough.
+        Real symbol of the operator, as of `convolution.symbol_of`, or `mirrored_half` of it.
     shape : tuple of int
         Pixels ``(ny, nx)`` of the map.
     edges : bool, "x" or "y"
@@ -31,19 +30,22 @@ def unit_response(symbol: Floats, shape: tuple[int, int], edges: Edges) -> Float
 
     Examples
     --------
-    >>> unit_response(np.full((4, 3), 2.0), (4, 4), True)
+    >>> unit_response(np.full((3, 3), 2.0), (4, 4), True)
     array([[2., 0., 0.],
            [0., 0., 0.],
            [0., 0., 0.]])
     """
-    ny, nx = shape
-    if not edges:  # the transform of an even map is a cosine transform of a quarter of it
-        made = scipy.fft.idctn(symbol[: ny + 1], type=1)[:ny, :nx]
+    height = shape[0] * (1 if edges in (True, "y") else 2)
+    width = symbol_width(shape[1], edges)
+    part = (shape[0] // 2 + 1, shape[1] // 2 + 1) if edges is True else shape
+    is_half = symbol.shape[0] < height
+    if is_half and isinstance(edges, bool) and height % 2 == width % 2 == 0:
+        # The transform of an even map is a cosine transform of a quarter of it, which is enough.
+        made = scipy.fft.idctn(symbol, type=1)
     else:
-        size = symbol.shape[0], symbol_width(nx, edges)
-        part = (ny // 2 + 1, nx // 2 + 1) if edges is True else shape
-        made = scipy.fft.irfft2(symbol, size)[: part[0], : part[1]]
-    return np.ascontiguousarray(made)
+        whole = np.concatenate([symbol, symbol[(height - 1) // 2 : 0 : -1]]) if is_half else symbol
+        made = scipy.fft.irfft2(whole, (height, width))
+    return np.ascontiguousarray(made[: part[0], : part[1]])
 
 
 class UnitResponse:

@@ -9,8 +9,10 @@ from selection import quick
 from contactkit.contact.solver import loops_numpy
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.contact.solver.idle_memory import IdleMemory
+from contactkit.contact.solver.unit_response import unit_response
 from contactkit.elasticity import influence, love
 from contactkit.numerics import fft as fft_backends
+from contactkit.numerics.fft import mirrored_half
 
 N = 96
 
@@ -112,3 +114,19 @@ def test_coefficients_mirrored_at_the_diagonal_are_those_of_love(shape, pixel):
     y, x = (d * np.arange(n + 1.0) for n, d in zip(shape, pixel, strict=True))
     wanted = love.rectangle(x, y[:, None], 0.5 * pixel[1], 0.5 * pixel[0], 2.0 / 0.91)
     np.testing.assert_allclose(found, wanted, rtol=1e-13)
+
+
+@pytest.mark.parametrize("edges", [True, False, "x", "y"])
+@pytest.mark.parametrize("shape", [(6, 8), (5, 8), (6, 7)])
+def test_the_unit_response_is_the_transform_of_the_whole_symbol(edges, shape):
+    height, width = (
+        n * (1 if edges in (True, axis) else 2) for n, axis in zip(shape, "yx", strict=True)
+    )
+    y, x = np.indices((height, width))
+    apart = np.hypot(np.minimum(y, height - y), 1.3 * np.minimum(x, width - x))
+    map_of = 1.0 / (1.0 + apart)
+    symbol = np.fft.rfft2(map_of).real
+    part = (shape[0] // 2 + 1, shape[1] // 2 + 1) if edges is True else shape
+    for given in (symbol, mirrored_half(symbol)):
+        found = unit_response(given, shape, edges)
+        np.testing.assert_allclose(found, map_of[: part[0], : part[1]], rtol=1e-13)
