@@ -93,18 +93,19 @@ def test_compiled_loops_find_the_same_pixels_and_sums(threaded):
 
 def test_loops_take_the_threads_of_the_solver(monkeypatch):
     numba = pytest.importorskip("numba")
-    pytest.importorskip("ducc0")
     from contactkit.contact.solver.loops_numba import compiled
 
     asked = []
     monkeypatch.setattr(numba, "set_num_threads", asked.append)
     before = numba.get_num_threads()
-    with compiled(True).on_threads(2):
-        pass
     most = numba.config.NUMBA_NUM_THREADS
-    assert asked == [min(2, most), before]
+    for wanted in (1, most + 1):
+        with compiled(True).on_threads(wanted):
+            assert asked == [min(wanted, most)]
+        assert asked == [min(wanted, most), before]
+        asked.clear()
     with compiled(False).on_threads(2), loops_numpy.on_threads(2):
-        assert len(asked) == 2  # serial: nothing to set
+        assert not asked  # serial: nothing to set
 
 
 @pytest.mark.parametrize("shape", [(150, 150), (150, 140)])
