@@ -83,11 +83,15 @@ def mirrored_half(symbol: Array) -> Array:
     return symbol[: n // 2 + 1] if off <= MIRRORED * float(np.abs(symbol).max()) else symbol
 
 
+def _ducc() -> Any:
+    return importlib.import_module("ducc0").fft
+
+
 def _ducc_periodic(
     symbol: Array, threads: int, scale: Scale, spectrum: Array, nx: int
 ) -> Transform:
     """Both axes at once; columns in strips cost 10 % more."""
-    fft: Any = importlib.import_module("ducc0").fft
+    fft = _ducc()
     forth = {"axes": (0, 1), "nthreads": threads}
     back = {**forth, "forward": False, "allow_overwriting_input": True}
     crew = threads if spectrum.nbytes > CACHED_BYTES else 1
@@ -195,7 +199,7 @@ def make_transform(
     if fast and periodic is True and not collides(shape[1], kind):
         symbol = scaled(symbol, padded, kind)
         return _ducc_periodic(symbol, threads, scale, spectrum, shape[1])
-    lines = by_ducc() if fast else by_scipy()
+    lines = by_ducc(_ducc()) if fast else by_scipy()
     # Strips of columns that are not padded cost 5 % on one thread.
     in_strips = _is_large(half, kind) and (threads > 1 or not along_y)
     return PiecewiseConvolution(symbol, shape, padded, spectrum, lines, scale, threads, in_strips)

@@ -8,7 +8,6 @@ bit on any number of threads.
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from queue import SimpleQueue
@@ -84,9 +83,8 @@ def by_scipy() -> Lines:
     return Lines(forth, columns, back)
 
 
-def by_ducc() -> Lines:
-    """Transforms of ducc0, which must be installed."""
-    fft: Any = importlib.import_module("ducc0").fft
+def by_ducc(fft: Any) -> Lines:
+    """Transforms of ducc0, by its module ``fft``."""
 
     def forth(rows: Array, out: Array, threads: int) -> None:
         fft.r2c(rows, axes=(1,), out=out, nthreads=threads)
