@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
+from ..numerics.fft_pieces import in_threads
 from . import love, point_load
 from .layer_stack import Base
 
@@ -38,6 +39,7 @@ _MIDDLE = 128.0
 # Points per block, to stay in the cache: 1 << 18 takes twice, 1 << 22 three times as long on 700 x
 # 700.
 _BLOCK = 1 << 16
+_ROWS = 128  # of coefficients of a half-space that each thread takes at a time
 
 
 def symbol(
@@ -160,11 +162,32 @@ def coefficients(
     (ny, nx), (dy, dx) = shape, pixel_size
     x, y = dx * np.arange(nx + 1.0), dy * np.arange(ny + 1.0)
     if layers.size == 0:
-        contact = float(modulus[0] / (1.0 - ratio[0] ** 2))
-        return love.rectangle(x, y[:, None], 0.5 * dx, 0.5 * dy, contact)
+        return _of_half_space(x, y, dx, dy, float(modulus[0] / (1.0 - ratio[0] ** 2)))
     diagonal = float(np.hypot(x[-1] + dx, y[-1] + dy))
     load = point_load.table(modulus, ratio, layers, 0.5 * min(dx, dy), diagonal, base)
     return coefficients_of(load, shape, pixel_size)
+
+
+def _of_half_space(
+    x: NDArray[np.float64], y: NDArray[np.float64], dx: float, dy: float, contact: float
+) -> NDArray[np.float64]:
+    """Love's coefficients, by the threads of ``scipy.fft.set_workers``.
+
+    On square pixels of a square window those beside the diagonal are computed once.
+    """
+    out = np.empty((y.size, x.size))
+    is_square = x.size == y.size and dx == dy
+
+    def fill(first: int) -> None:
+        rows, columns = slice(first, first + _ROWS), slice(first if is_square else 0, None)
+        made = love.rectangle(x[columns], y[rows, None], 0.5 * dx, 0.5 * dy, contact)
+        out[rows, columns] = made
+        if is_square:
+            out[first + _ROWS :, rows] = made[:, _ROWS:].T
+
+    with in_threads(fft.get_workers()) as each:
+        each(fill, range(0, y.size, _ROWS))
+    return out
 
 
 def coefficients_of(

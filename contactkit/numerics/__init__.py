@@ -13,5 +13,6 @@ monotone_cubic  Curves through points that keep the order of their values.
 lines           Points of curves between which straight lines are right.
 fixed_point     Fixed points of expensive maps: accelerated, evaluated no better than needed.
 blas            Linear algebra of small matrices on one thread.
+fft_pieces      Convolution of a map piece by piece, each thread taking whole pieces.
 fft             Real two-dimensional transforms: scipy.fft always, ducc0 where it is installed.
 """

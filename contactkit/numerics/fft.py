@@ -2,9 +2,8 @@
 
 `convolution_of` is the same for other array libraries.
 
-A back end multiplies the spectrum of a map by a real symbol and transforms back. The free case
-never stores the zero rows of the padded map: rows are padded and transformed first, then columns.
-Signs do not matter here: the symbols are real and even.
+A back end multiplies the spectrum of a map by a real symbol and transforms back; see `fft_pieces`
+for maps that are padded or large. Signs do not matter here: the symbols are real and even.
 """
 
 from __future__ import annotations
@@ -17,6 +16,8 @@ from typing import Any, Literal
 import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
+
+from .fft_pieces import LINE, PiecewiseConvolution, by_ducc, by_scipy, collides, in_threads, scaled
 
 __all__ = [
     "Edges",
@@ -34,23 +35,10 @@ Transform = Callable[[Array, Array], None]
 Scale = Callable[[Array, Array], None]
 Edges = bool | Literal["x", "y"]
 
-# These balance the calls of many small pieces against what spills from the cache; none changes a
-# result. Times below: free maps of 1024 x 1024 on one thread of a shared server, to 10 %.
-
-# Of rows transformed at a time by scipy: 2**16 take 1.15 times the time, all at once 1.7 times.
-CHUNK_BYTES = 2**20
-# Of a padded spectrum up to which ducc0 takes all columns at once: beyond the cache strips save 5
-# to 20 % of the time, below it what they copy costs more.
+# Of a spectrum up to which all columns are taken at once: beyond the cache strips save 5 to 20 % of
+# the time, below it what they copy costs more.
 CACHED_BYTES = 12 * 2**20
-# Bytes between rows whose first elements share a cache set (32 KiB in 8 ways). On processors with
-# such a cache their collisions cost half of the time; on others nothing is lost.
-PITCH = 4096
-LINE = 64  # bytes by which rows are made longer against that: a cache line; 256 do no better
-# Of rows that each thread of ducc0 takes at a time, where they are copied: no trend from 2**14 to
-# 2**20, 1.15 times the time at 2**22.
-ROWS_BYTES = 2**18
 MIRRORED = 1e-13  # over the largest of a symbol: round-off of the transform that made it
-STRIP = 32  # columns that each thread of ducc0 takes at a time beyond CACHED_BYTES
 
 
 def fast_transforms_installed() -> bool:
@@ -95,125 +83,32 @@ def mirrored_half(symbol: Array) -> Array:
     return symbol[: n // 2 + 1] if off <= MIRRORED * float(np.abs(symbol).max()) else symbol
 
 
-def _scipy_transform(
-    symbol: Array, periodic: bool, workers: int, scale: Scale, spectrum: Array
-) -> Transform:
-    """Rows in chunks, so that what scipy allocates stays in the cache; columns in place.
-
-    `periodic` is along the rows; columns are padded to the length of the symbol.
-    """
-
-    def transform(source: Array, target: Array) -> None:
-        ny, nx = source.shape
-        width = nx if periodic else 2 * nx
-        step = workers * max(8, CHUNK_BYTES // (width * source.itemsize))
-        parts = [slice(i, min(i + step, ny)) for i in range(0, ny, step)]
-        for part in parts:
-            spectrum[part] = scipy.fft.rfft(source[part], width, axis=1, workers=workers)
-        spectrum[ny:] = 0.0
-        waves = scipy.fft.fft(spectrum, axis=0, overwrite_x=True, workers=workers)
-        scale(waves, symbol)
-        waves = scipy.fft.ifft(waves, axis=0, norm="forward", overwrite_x=True, workers=workers)
-        for part in parts:
-            back = scipy.fft.irfft(waves[part], width, axis=1, norm="forward", workers=workers)
-            target[part] = back[:, :nx]
-
-    return transform
-
-
-class _Rows:
-    """Transforms along the rows of a map by ducc0, zeros appended, a few padded rows at a time.
-
-    Rows a power of two of bytes apart share the lines of a cache, and ducc0 takes several at once:
-    from `PITCH` on they are copied to rows that are a little longer.
-    """
-
-    def __init__(self, shape: tuple[int, int], width: int, kind: Any, threads: int) -> None:
-        self.fft: Any = importlib.import_module("ducc0").fft
-        (ny, self.nx), self.width, self.threads = shape, width, threads
-        size = np.dtype(kind).itemsize
-        count = min(ny, max(8, ROWS_BYTES // (width * size)) * threads)
-        self.parts = [slice(i, min(i + count, ny)) for i in range(0, ny, count)]
-        self.some = np.zeros((count, width + LINE // size), kind)[:, :width]
-
-    def forth(self, source: Array, spectrum: Array) -> None:
-        """Half spectrum of every row."""
-        for part in self.parts:
-            rows = self.some[: part.stop - part.start]
-            rows[:, : self.nx] = source[part]
-            rows[:, self.nx :] = 0.0
-            self.fft.r2c(rows, axes=(1,), out=spectrum[part], nthreads=self.threads)
-
-    def back(self, spectrum: Array, target: Array) -> None:
-        """Rows of half spectra."""
-        given = {"axes": (1,), "lastsize": self.width, "forward": False, "nthreads": self.threads}
-        for part in self.parts:
-            rows = self.some[: part.stop - part.start]
-            self.fft.c2r(spectrum[part], out=rows, **given)
-            target[part] = rows[:, : self.nx]
+def _ducc() -> Any:
+    return importlib.import_module("ducc0").fft
 
 
 def _ducc_periodic(
     symbol: Array, threads: int, scale: Scale, spectrum: Array, nx: int
 ) -> Transform:
-    fft: Any = importlib.import_module("ducc0").fft
+    """Both axes at once; columns in strips cost 10 % more."""
+    fft = _ducc()
     forth = {"axes": (0, 1), "nthreads": threads}
     back = {**forth, "forward": False, "allow_overwriting_input": True}
+    crew = threads if spectrum.nbytes > CACHED_BYTES else 1
+    width = -(-spectrum.shape[1] // crew)
+    parts = [
+        (spectrum[:, i : i + width], symbol[:, i : i + width])
+        for i in range(0, symbol.shape[1], width)
+    ]
 
     def transform(source: Array, target: Array) -> None:
         fft.r2c(source, out=spectrum, **forth)
-        scale(spectrum, symbol)
+        if crew == 1:
+            scale(spectrum, symbol)
+        else:
+            with in_threads(crew) as each:
+                each(lambda part: scale(*part), parts)
         fft.c2r(spectrum, lastsize=nx, out=target, **back)
-
-    return transform
-
-
-def _ducc_pitched(symbol: Array, threads: int, scale: Scale, spectrum: Array, nx: int) -> Transform:
-    """The same for maps whose rows collide in the cache."""
-    rows = _Rows((spectrum.shape[0], nx), nx, symbol.dtype, threads)
-
-    def transform(source: Array, target: Array) -> None:
-        rows.forth(source, spectrum)
-        rows.fft.c2c(spectrum, axes=(0,), out=spectrum, nthreads=threads)
-        scale(spectrum, symbol)
-        rows.fft.c2c(spectrum, axes=(0,), forward=False, out=spectrum, nthreads=threads)
-        rows.back(spectrum, target)
-
-    return transform
-
-
-def _ducc_free(
-    symbol: Array, threads: int, scale: Scale, spectrum: Array, shape: tuple[int, int]
-) -> Transform:
-    """Rows, then columns: all at once, or if they exceed the cache a strip of them forth and back.
-
-    What a strip copies costs more than it saves on small maps.
-    """
-    fft: Any = importlib.import_module("ducc0").fft
-    ny, nx = shape
-    top, rows = spectrum[:ny], _Rows((ny, nx), 2 * nx, symbol.dtype, threads)
-    is_small = spectrum.shape[0] > ny
-    width = nx + 1 if is_small else STRIP * threads
-    parts = [slice(i, min(i + width, nx + 1)) for i in range(0, nx + 1, width)]
-    symbols = [np.ascontiguousarray(symbol[:, part]) for part in parts]
-    strip = spectrum if is_small else np.zeros((2 * ny, width), spectrum.dtype)
-
-    def columns(part: slice, strip: Array, symbol: Array) -> None:
-        if not is_small:
-            strip[:ny] = top[:, part]
-        strip[ny:] = 0.0
-        fft.c2c(strip, axes=(0,), out=strip, nthreads=threads)
-        scale(strip, symbol)
-        fft.c2c(strip, axes=(0,), forward=False, out=strip, nthreads=threads)
-        if not is_small:
-            top[:, part] = strip[:ny]
-
-    def transform(source: Array, target: Array) -> None:
-        rows.forth(source, top)
-        for part, s in zip(parts, symbols, strict=True):
-            last = part.stop - part.start
-            columns(part, strip if last == strip.shape[1] else strip[:, :last], s)
-        rows.back(top, target)
 
     return transform
 
@@ -223,8 +118,8 @@ def spectrum_shape(
 ) -> tuple[int, int]:
     """Shape of the complex array that `make_transform` works in.
 
-    For ducc0 its rows are an odd number of cache lines long, so that no columns collide. Large free
-    maps transform their columns in strips: only the rows of the map are ever stored.
+    For ducc0 its rows are an odd number of cache lines long, so that no columns collide. Columns of
+    large maps are transformed in strips: only the rows of the map itself are ever stored.
 
     Parameters
     ----------
@@ -240,12 +135,18 @@ def spectrum_shape(
     >>> spectrum_shape((2048, 1025), np.float32, periodic=False, fast=True)
     (1024, 1032)
     """
+    rows = half[0] // 2 if periodic in (False, "x") and _is_large(half, kind) else half[0]
     if not fast:
-        return half
+        return rows, half[1]
     size = 2 * np.dtype(kind).itemsize
     lines = -(-half[1] * size // LINE) // 2 * 2 + 1
-    is_large = half[0] * half[1] * size > CACHED_BYTES
-    return (half[0] // 2 if is_large and not periodic else half[0]), lines * LINE // size
+    return rows, lines * LINE // size
+
+
+def _is_large(half: tuple[int, int], kind: Any) -> bool:
+    """Whether a spectrum of the padded map is beyond the cache."""
+    size = 2 * int(np.dtype(kind).itemsize)
+    return half[0] * half[1] * size > CACHED_BYTES
 
 
 def make_transform(
@@ -263,21 +164,21 @@ def make_transform(
     ----------
     symbol : ndarray
         Real symbol on the half spectrum: ``(ny, nx // 2 + 1)`` if periodic, else that of the
-        doubled map, ``(2 ny, nx + 1)``; or `mirrored_half` of it. Its dtype is the precision of the
-        transforms.
+        doubled map, ``(2 ny, nx + 1)``; or `mirrored_half` of it.
     shape : tuple of int
         Pixels ``(ny, nx)`` of the map.
     periodic : bool, "x" or "y"
         Whether the map repeats, or along which axis; across it is padded by zeros to twice its
-        side. Along one axis scipy transforms, also if `fast`.
+        side.
     threads : int
         Threads of the transforms.
     fast : bool
         Use ducc0, which must then be installed.
     scale : callable
-        In-place product of spectrum and symbol.
+        In-place product of spectrum and symbol; several threads may call it at once.
     spectrum : ndarray, optional
-        Where to work: complex, of the shape `spectrum_shape`.
+        Where to work: complex, of the shape `spectrum_shape`. Its precision is that of the
+        transforms; without it that of the symbol is.
 
     Examples
     --------
@@ -287,22 +188,21 @@ def make_transform(
     >>> bool(np.allclose(source, target))
     True
     """
-    padded = shape[0] * shape[1] * (1 if periodic is True else 2 if periodic else 4)
-    symbol = symbol / padded  # once, instead of after every inverse transform
+    along_y, along_x = (periodic in (True, axis) for axis in ("y", "x"))
+    padded = shape[0] * (1 if along_y else 2), shape[1] * (1 if along_x else 2)
+    half = padded[0], symbol.shape[1]
     if spectrum is None:
         kind = np.result_type(symbol.dtype, np.complex64)
-        half = shape[0] * (1 if periodic in (True, "y") else 2), symbol.shape[1]
         spectrum = np.zeros(spectrum_shape(half, symbol.dtype, periodic, fast), kind)
     spectrum = spectrum[:, : symbol.shape[1]]
-    if isinstance(periodic, str):
-        return _scipy_transform(symbol, periodic == "x", threads, scale, spectrum)
-    if fast and not periodic:
-        return _ducc_free(symbol, threads, scale, spectrum, shape)
-    if fast:
-        collides = symbol.dtype.itemsize == 4 and shape[1] * 4 % PITCH == 0  # in double: no gain
-        transform = _ducc_pitched if collides else _ducc_periodic
-        return transform(symbol, threads, scale, spectrum, shape[1])
-    return _scipy_transform(symbol, periodic, threads, scale, spectrum)
+    kind = spectrum.real.dtype
+    if fast and periodic is True and not collides(shape[1], kind):
+        symbol = scaled(symbol, padded, kind)
+        return _ducc_periodic(symbol, threads, scale, spectrum, shape[1])
+    lines = by_ducc(_ducc()) if fast else by_scipy()
+    # Strips of columns that are not padded cost 5 % on one thread.
+    in_strips = _is_large(half, kind) and (threads > 1 or not along_y)
+    return PiecewiseConvolution(symbol, shape, padded, spectrum, lines, scale, threads, in_strips)
 
 
 def convolution_of(

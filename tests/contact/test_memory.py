@@ -81,6 +81,10 @@ def test_memory_of_the_solver_is_that_of_ten_maps_or_six_padded_ones():
         assert found.converged
         assert 0.02 < np.mean(found.pressure > 0.0) < 0.08
         assert found.memory_arrays <= most
+    large = ContactSolver((896, 896), (1.0, 1.0), free, False)  # columns in strips
+    found = large.solve(np.pad(h, 192, "wrap"), mean_pressure=0.02)
+    assert found.converged
+    assert 4.0 * found.memory_arrays <= 10.5
 
 
 def test_coarse_grids_in_the_memory_of_the_finest_leave_nothing_behind():

@@ -29,6 +29,7 @@ from ...elasticity.tangential_one_axis import one_axis_symbol
 from ...numerics.fft import fast_transforms_installed
 from ...scene.window import Edges, Grid
 from ..solver.convolution import Convolution, Transforms, self_influence, symbol_width
+from ..solver.idle_memory import IdleMemory
 
 __all__ = ["TangentialOperator", "tangential_operator"]
 
@@ -68,8 +69,9 @@ class _Convolutions:
         self._rows = [[first] * len(row) for row in symbols]
         for i in range(len(symbols)):
             for j in range(max(i, 1), len(symbols)):
+                idle = IdleMemory(first.spectrum)
                 self._rows[i][j] = self._rows[j][i] = Convolution(
-                    shape, symbols[i][j], edges, transforms, lender=first, maps=maps
+                    shape, symbols[i][j], edges, transforms, idle=idle, maps=maps
                 )
 
     def __call__(self, given: Array, at: NDArray[np.intp]) -> Array:

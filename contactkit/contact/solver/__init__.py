@@ -18,6 +18,8 @@ first_guess         First guess of the pressure on the coarsest grid.
 nested_grids        Operators and preconditioners of the nested grids.
 transfer            Restriction and prolongation between the grids.
 warm_start          Pressures extrapolated from those under the previous loads.
+idle_memory         Memory of arrays that are idle, lent to others meanwhile.
+unit_response       Displacement of a map under unit pressure on its first pixel.
 convolution         Displacement under a pressure map by fast Fourier transforms.
 loops_numpy         Loops over pixels in numpy.
 loops_numba         The same loops compiled.

@@ -19,6 +19,7 @@ L       sparse factor, ``L' L`` about the inverse; rows follow the pixels
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -99,9 +100,9 @@ class CellInverse:
 
     Parameters
     ----------
-    response : ndarray
-        Displacement under unit pressure on the pixel (0, 0), to the middle of the map if it repeats
-        along both axes.
+    response : callable
+        Gives the displacement under unit pressure on the pixel (0, 0), to the middle of the map if
+        it repeats along both axes.
     shape : tuple of int
         Pixels of the map.
     pixel_size : tuple of float
@@ -119,7 +120,7 @@ class CellInverse:
     --------
     >>> from contactkit.contact.solver import loops_numpy
     >>> response = np.array([[2.0, 0.5], [0.5, 0.25]])
-    >>> inverse = CellInverse(response, (2, 2), (1.0, 1.0), False, loops_numpy)
+    >>> inverse = CellInverse(lambda: response, (2, 2), (1.0, 1.0), False, loops_numpy)
     >>> inverse.prepare(np.array([0, 3]))
     >>> inverse(np.array([2.0, 0.25], np.float32)).round(3)
     array([1., 0.], dtype=float32)
@@ -127,7 +128,7 @@ class CellInverse:
 
     def __init__(
         self,
-        response: Floats,
+        response: Callable[[], Floats],
         shape: Shape,
         pixel_size: tuple[float, float],
         periodic: Edges,
@@ -179,7 +180,8 @@ class CellInverse:
             values[same] = self.values[before[same]]
             new = ~same
         if not self._lifted.size:  # a periodic response has zero mean: this makes it positive
-            self._lifted = self.response - min(0.0, float(self.response.min()))
+            response = self.response()
+            self._lifted = response - min(0.0, float(response.min()))
         values[new] = self.loops.cell_rows(
             neighbours[new], self._lifted, self.shape, self.periodic, ROUND_OFF[self.kind]
         )

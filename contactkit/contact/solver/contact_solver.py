@@ -12,11 +12,13 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from typing import NamedTuple
 
 import numpy as np
+import scipy.fft
 from numpy.typing import NDArray
 
 from ...errors import ConvergenceError, DescriptionError, InfeasibleError
@@ -25,6 +27,7 @@ from .active_set import SetOutcome, improve
 from .convolution import SymbolMaker
 from .first_guess import first_guess
 from .linear_response import linear_response
+from .loops_numpy import dot
 from .nested_grids import bytes_of, prepare
 from .problem import ContactProblem, Solution, coarser, fit, known_pressure, pose
 from .reference_solvers import Iterate, conjugate_gradient, quasi_newton
@@ -144,10 +147,19 @@ class ContactSolver:
         self.shape = (int(shape[0]), int(shape[1]))
         self.pixel_size = (float(pixel_size[0]), float(pixel_size[1]))
         self.periodic = periodic
-        self.grids, self.self_influence = prepare(
-            self.shape, self.pixel_size, make_symbol, periodic, int(threads), fast
-        )
+        self.threads = int(threads)
+        with scipy.fft.set_workers(self.threads):
+            self.grids, self.self_influence = prepare(
+                self.shape, self.pixel_size, make_symbol, periodic, self.threads, fast
+            )
         self._lock = threading.Lock()
+
+    @contextmanager
+    def _at_work(self) -> Iterator[None]:
+        """Have the work arrays alone, and everything on the threads of the solver."""
+        loops = self.grids[0].loops
+        with self._lock, scipy.fft.set_workers(self.threads), loops.on_threads(self.threads):
+            yield
 
     @property
     def nbytes(self) -> int:
@@ -166,7 +178,7 @@ class ContactSolver:
         if p.shape != self.shape:
             raise DescriptionError("pressure", p.shape, f"have the shape {self.shape}")
         fine = self.grids[0]
-        with self._lock:
+        with self._at_work():
             fine.pressure[...] = p
             fine.displace(True)
             return fine.gap * self.self_influence
@@ -234,7 +246,7 @@ class ContactSolver:
             raise DescriptionError("rtol", rtol, "be positive and finite")
         problem = pose(heights, self.self_influence, mean_pressure, rigid_approach, bound)
         self._refuse_closed_gap(problem)
-        with self._lock:
+        with self._at_work():
             begun = time.perf_counter()
             started = self._reset(problem, start, mean_pressure, rigid_approach)
             p = known_pressure(problem)
@@ -281,7 +293,7 @@ class ContactSolver:
             If the residual stays above ten times the tolerance.
         """
         at, own = np.flatnonzero(free), self.self_influence
-        with self._lock:
+        with self._at_work():
             for grid in self.grids:
                 grid.reset()
             given = np.asarray(right, dtype=np.float64).ravel()[at] / own
@@ -346,9 +358,13 @@ class ContactSolver:
         p = first_guess(self.grids[-1], problems[-1])
         for grid, coarse in zip(self.grids[::-1], problems[::-1], strict=True):
             shape = grid.pressure.shape
-            p = p if p.shape == shape else prolong(p, shape)
-            upper = coarse.upper.reshape(shape if coarse.upper.size > 1 else (1, 1))
-            np.minimum(p, upper, out=grid.pressure)
+            if p.shape == shape:
+                grid.pressure[...] = p
+            else:
+                prolong(p, shape, grid.pressure)
+            if np.isfinite(coarse.upper).any():
+                flat = grid.pressure.ravel()
+                np.minimum(flat, coarse.upper, out=flat)
             if coarse is not problem:
                 improve(grid, coarse, COARSE_RTOL)
                 p = grid.pressure
@@ -408,18 +424,18 @@ class ContactSolver:
         u += problem.heights
         unit = problem.pressure * problem.length * self.pixel_size[0] * self.pixel_size[1]
         offset = problem.datum / problem.length
-        # Not vdot: its threads of BLAS wait longer for each other than this takes.
-        energy = 0.5 * float(np.einsum("ij,ij->", p, u))
-        energy -= float(np.einsum("ij,ij->", p, problem.heights))
+        at = np.flatnonzero(p)  # few pixels, of large maps
+        weight, total = p.ravel()[at], float(p.sum())
+        energy = dot(weight, 0.5 * u.ravel()[at] - problem.heights.ravel()[at])
         # In the memory of the dimensionless heights, whose last use this is.
         displacement = np.multiply(u, problem.length, out=problem.heights)
         count = fine.applications()
         coarse = sum(g.applications() for g in self.grids[1:])
         coarse += sum(g.two_level.applications() for g in self.grids if g.two_level is not None)
-        vectors = int(np.count_nonzero(p)) * (5 * 4 + 3 * np.dtype(np.intp).itemsize)
+        vectors = at.size * (5 * 4 + 3 * np.dtype(np.intp).itemsize)
         held = bytes_of(self.grids) + problem.heights.nbytes + 2 * p.nbytes + vectors
         padded = p.nbytes * (1 if self.periodic is True else 2 if self.periodic else 4)
-        carried = problem.load is None or abs(float(p.sum()) - problem.load) <= 1e-9 * problem.load
+        carried = problem.load is None or abs(total - problem.load) <= 1e-9 * problem.load
         return Solution(
             pressure=p * problem.pressure,
             displacement=displacement,
@@ -427,7 +443,7 @@ class ContactSolver:
             converged=bool(outcome.relative <= rtol and carried),
             kkt=outcome.relative,
             certificate=outcome.certificate,
-            energy=(energy - offset * float(p.sum())) * unit,
+            energy=(energy - offset * total) * unit,
             n_applications=count,
             n_ffts=2 * count,
             n_coarse=coarse,

@@ -25,6 +25,8 @@ from numpy.typing import NDArray
 
 from ...errors import DescriptionError
 from ...numerics.fft import Edges, make_transform, scale_spectrum, spectrum_shape
+from ...numerics.fft_pieces import PiecewiseConvolution
+from .idle_memory import IdleMemory
 
 __all__ = [
     "Convolution",
@@ -180,14 +182,6 @@ def framed_places(at: NDArray[np.intp], width: int) -> NDArray[np.intp]:
     return np.asarray(at + 2 * (at // width) + (width + 3))
 
 
-def _lent(lender: Convolution | None, shape: tuple[int, ...], kind: Any) -> NDArray[Any]:
-    size = int(np.prod(shape))
-    if lender is None or lender._spectrum.nbytes < size * np.dtype(kind).itemsize:
-        return np.zeros(shape, kind)
-    lent: NDArray[Any] = lender._spectrum.view(kind).ravel()[:size].reshape(shape)
-    return lent
-
-
 class Convolution:
     """``displacement = G pressure`` on one grid, with its own in- and output maps.
 
@@ -203,8 +197,8 @@ class Convolution:
         Threads and backend.
     dtype : type
         Precision, ``np.float64`` or ``np.float32``.
-    lender : Convolution, optional
-        One of a map as large or larger, and no less precision, to share the memory of its spectrum.
+    idle : IdleMemory, optional
+        Where the spectrum is, which is idle between the runs; its own if not given.
     maps : tuple of ndarray, optional
         Memory of `source` and `target`, zeros; its own if not given. That of the source may have a
         frame one pixel wide, ``(ny + 2, nx + 2)``, for stencils.
@@ -212,8 +206,8 @@ class Convolution:
     Notes
     -----
     `source` must hold the pressure; ``run()`` fills `target`. `memory` is that of the source, flat
-    and with its frame, in which `places` are. `count` is the number of runs, each of them two
-    transforms; `nbytes` its memory.
+    and with its frame, in which `places` are. `spectrum` is idle between runs. `count` is their
+    number, each of them two transforms; `nbytes` its memory.
 
     Examples
     --------
@@ -230,7 +224,7 @@ class Convolution:
         periodic: Edges,
         transforms: Transforms = BY_SCIPY,
         dtype: Any = np.float64,
-        lender: Convolution | None = None,
+        idle: IdleMemory | None = None,
         maps: tuple[NDArray[Any], NDArray[Any]] | None = None,
     ) -> None:
         self.shape = shape
@@ -244,17 +238,15 @@ class Convolution:
         kind = np.result_type(dtype, np.complex64)
         rows = shape[0] if periodic in (True, "y") else 2 * shape[0]
         room = spectrum_shape((rows, symbol.shape[1]), dtype, periodic, transforms.fast)
-        self._spectrum = _lent(lender, room, kind)
-        lent = lender is not None and np.shares_memory(self._spectrum, lender._spectrum)
-        self.nbytes = precise * symbol.size + (0 if lent else self._spectrum.nbytes)
-        self.nbytes += sum(one.nbytes for one in (source, target) if one.base is None)
-        self._transform = make_transform(
-            np.ascontiguousarray(symbol, dtype),
-            shape,
-            periodic,
-            *transforms,
-            self._spectrum,
-        )
+        self.spectrum = np.zeros(room, kind) if idle is None else idle.take(room, kind)
+        own = (one for one in (source, target, self.spectrum) if one.base is None)
+        self.nbytes = precise * symbol.size + sum(one.nbytes for one in own)
+        self._transform = make_transform(symbol, shape, periodic, *transforms, self.spectrum)
+
+    def symbol(self) -> NDArray[Any]:
+        """Symbol of an isolated map, the rows that the others mirror, as a new array."""
+        assert isinstance(self._transform, PiecewiseConvolution)
+        return self._transform.symbol()
 
     def places(self, at: NDArray[np.intp]) -> NDArray[np.intp]:
         """Places of pixels in `memory`, by flat indices in the map."""
@@ -300,16 +292,18 @@ class Patch:
 
     Parameters
     ----------
-    response : ndarray (ny, nx)
-        Displacement under unit pressure on the pixel (0, 0).
+    response : callable
+        Gives the displacement (ny, nx) under unit pressure on the pixel (0, 0).
+    shape : tuple of int
+        Pixels ``(ny, nx)`` of the map.
     transforms : Transforms
         Threads and backend.
-    lender : Convolution
-        Of the map, whose spectrum is borrowed.
+    memory : ndarray, optional
+        Where the spectrum may be, idle between runs.
 
     Examples
     --------
-    >>> patch = Patch(1.0 / (1.0 + np.hypot(*np.indices((16, 16)))))
+    >>> patch = Patch(lambda: 1.0 / (1.0 + np.hypot(*np.indices((16, 16)))), (16, 16))
     >>> patch.take(np.array([5, 22])).shape, patch.at
     ((8, 8), array([0, 9]))
     >>> patch.take(np.array([0, 255])) is None
@@ -318,13 +312,13 @@ class Patch:
 
     def __init__(
         self,
-        response: Floats,
+        response: Callable[[], Floats],
+        shape: Shape,
         transforms: Transforms = BY_SCIPY,
-        lender: Convolution | None = None,
+        memory: NDArray[Any] | None = None,
     ) -> None:
-        self.response = response
-        self.shape = response.shape
-        self._transforms, self._lender = transforms, lender
+        self.response, self.shape = response, shape
+        self._transforms, self._memory = transforms, memory
         self.operator: Convolution | None = None
         self.count = 0
 
@@ -344,8 +338,9 @@ class Patch:
             size = self._size(wanted)
             if size[0] * size[1] > WORTH * self.shape[0] * self.shape[1]:
                 return None
-            symbol = patch_symbol(self.response, size)
-            here = Convolution(size, symbol, False, self._transforms, np.float32, self._lender)
+            symbol = patch_symbol(self.response(), size)
+            idle = None if self._memory is None else IdleMemory(self._memory)
+            here = Convolution(size, symbol, False, self._transforms, np.float32, idle)
         self.operator = here
         self.at = (row - top) * here.shape[1] + (column - left)
         return here

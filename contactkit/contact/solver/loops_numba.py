@@ -10,6 +10,8 @@ Sign convention and symbols: see `loops_numpy`.
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import SimpleNamespace
 from typing import Any
 
@@ -25,17 +27,22 @@ from .loops_numpy import (
     Lattices,
     LineStep,
     Violation,
+    on_threads,
 )
 
 __all__ = ["compiled"]
 
 Array = Any
+PARTS = 64  # of a map, which threads take one by one
 FAST = {"reassoc", "contract", "arcp", "nsz", "nnan"}
 
 
 def scale_spectrum(spectrum: Array, symbol: Array) -> None:
-    """Multiply a spectrum by a real symbol, or the half of a mirrored one, in place."""
-    for i in prange(spectrum.shape[0]):
+    """Multiply a spectrum by a real symbol, or the half of a mirrored one, in place.
+
+    Serial: the threads of a transform have each their part of the spectrum.
+    """
+    for i in range(spectrum.shape[0]):
         row = i if i < symbol.shape[0] else spectrum.shape[0] - i
         for j in range(spectrum.shape[1]):
             spectrum[i, j] *= symbol[row, j]
@@ -57,15 +64,16 @@ def add_change(g: Array, change: Array) -> None:
 
 
 def free_sums(p: Array, g: Array, upper: Array) -> FreeSums:
-    """Sums of p and p g over the pixels between the bounds, and the number of these."""
+    """Sums of p and p g over the pixels between the bounds, their number, and the sum of all p."""
     many = 0 if upper.size == 1 else 1
-    weight, weighted, free = 0.0, 0.0, 0
+    weight, weighted, free, total = 0.0, 0.0, 0, 0.0
     for k in prange(p.size):
+        total += p[k]
         if 0.0 < p[k] < upper[k * many]:
             weight += p[k]
             weighted += p[k] * g[k]
             free += 1
-    return FreeSums(weight, weighted, free)
+    return FreeSums(weight, weighted, free, total)
 
 
 def violation(p: Array, g: Array, upper: Array, approach: float) -> Violation:
@@ -94,25 +102,35 @@ def violation(p: Array, g: Array, upper: Array, approach: float) -> Violation:
 def free_set(p: Array, g: Array, upper: Array, approach: float) -> FreeSet:
     """Free pixels, and how many of them leave a bound."""
     many = 0 if upper.size == 1 else 1
+    parts = min(p.size, PARTS)
     at = np.empty(p.size, np.int32)
-    count, added = 0, 0
-    for k in range(p.size):
-        if p[k] <= 0.0 and g[k] >= approach:  # nearly all of them
-            continue
-        bound = upper[k * many]
-        if p[k] <= 0.0:
-            if bound > 0.0:
+    counts, added = np.zeros(parts, np.int64), 0
+    for part in prange(parts):  # each to the memory of its pixels, then one after the other
+        first = count = part * p.size // parts
+        for k in range(first, (part + 1) * p.size // parts):
+            if p[k] <= 0.0 and g[k] >= approach:  # nearly all of them
+                continue
+            bound = upper[k * many]
+            if p[k] <= 0.0:
+                if bound > 0.0:
+                    at[count] = k
+                    count += 1
+                    added += 1
+            elif p[k] < bound:
+                at[count] = k
+                count += 1
+            elif g[k] > approach:
                 at[count] = k
                 count += 1
                 added += 1
-        elif p[k] < bound:
-            at[count] = k
-            count += 1
-        elif g[k] > approach:
-            at[count] = k
-            count += 1
-            added += 1
-    return FreeSet(at[:count].astype(np.intp), added)
+        counts[part] = count - first
+    ends = np.cumsum(counts)
+    packed = np.empty(ends[-1], np.intp)
+    for part in prange(parts):
+        first, start = part * p.size // parts, ends[part] - counts[part]
+        for k in range(counts[part]):
+            packed[start + k] = at[first + k]
+    return FreeSet(packed, added)
 
 
 def gather(full: Array, at: Array, out: Array) -> None:
@@ -424,9 +442,9 @@ def cell_rows(
     return values
 
 
-SERIAL = (free_set, block_sums, apply_factor)
+SERIAL = (scale_spectrum, block_sums, apply_factor)
 THREADED = (
-    scale_spectrum,
+    free_set,
     reduce_gap,
     free_sums,
     violation,
@@ -448,6 +466,18 @@ THREADED = (
 )
 
 
+@contextmanager
+def _on_threads(count: int) -> Iterator[None]:
+    """Have the loops of this thread take a number of threads, as far as numba has them."""
+    before = numba.get_num_threads()
+    most = numba.config.NUMBA_NUM_THREADS  # type: ignore[attr-defined]
+    numba.set_num_threads(min(count, most))
+    try:
+        yield
+    finally:
+        numba.set_num_threads(before)
+
+
 @functools.lru_cache(maxsize=2)
 def compiled(threaded: bool) -> SimpleNamespace:
     """The compiled loops as one namespace, serial or threaded.
@@ -455,14 +485,14 @@ def compiled(threaded: bool) -> SimpleNamespace:
     Parameters
     ----------
     threaded : bool
-        Split the loops over the threads that numba is set to.
+        Split the loops over the threads of `on_threads`.
 
     Notes
     -----
     The first use of a function in a fresh installation costs its compilation, some ten seconds for
     all of them; later processes load them from the cache.
     """
-    serial = {f.__name__: numba.njit(f, cache=True, fastmath=FAST) for f in SERIAL}
+    serial = {f.__name__: numba.njit(f, cache=True, fastmath=FAST, nogil=True) for f in SERIAL}
     rest = {
         f.__name__: numba.njit(f, cache=True, fastmath=FAST, parallel=threaded) for f in THREADED
     }
@@ -470,5 +500,6 @@ def compiled(threaded: bool) -> SimpleNamespace:
         **serial,
         **rest,
         sparse_factor=lambda neighbours, rows, table: (neighbours, rows, table),
+        on_threads=_on_threads if threaded else on_threads,
         __name__="loops_numba",
     )

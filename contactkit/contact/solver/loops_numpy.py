@@ -17,6 +17,7 @@ d, q      search direction and its displacement, on the same
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -42,6 +43,7 @@ __all__ = [
     "cell_rows",
     "apply_factor",
     "lattice_neighbours",
+    "on_threads",
     "pattern_rows",
     "sparse_factor",
     "violation",
@@ -64,11 +66,12 @@ LIFT = 1.0 + 1e-7  # of the diagonal of small matrices, which may be singular to
 
 
 class FreeSums(NamedTuple):
-    """Sums of p and of p g over the pixels between the bounds, and the number of these."""
+    """Sums of p and of p g over the pixels between the bounds, their number, and the sum of all."""
 
     pressure: float
     weighted_gap: float
     n_pixels: int
+    total: float
 
 
 class Violation(NamedTuple):
@@ -93,6 +96,11 @@ class LineStep(NamedTuple):
     squared_residual: float
 
 
+def on_threads(count: int) -> AbstractContextManager[None]:
+    """Have the loops take a number of threads, within a ``with``: these take one."""
+    return nullcontext()
+
+
 def dot(a: Array, b: Array) -> float:
     """Scalar product; not of BLAS, whose threads wait longer for each other than this takes."""
     return float((a * b).sum())
@@ -111,10 +119,12 @@ def add_change(g: Array, change: Array) -> None:
 
 
 def free_sums(p: Array, g: Array, upper: Array) -> FreeSums:
-    """Sums of p and p g over the pixels between the bounds, and the number of these."""
+    """Sums of p and p g over the pixels between the bounds, their number, and the sum of all p."""
     free = np.flatnonzero((p > 0.0) & (p < upper))
     weight = p[free]
-    return FreeSums(float(weight.sum()), dot(weight, g[free]), free.size)
+    carried = float(weight.sum())
+    total = carried if np.isinf(upper).all() else float(p.sum())
+    return FreeSums(carried, dot(weight, g[free]), free.size, total)
 
 
 def violation(p: Array, g: Array, upper: Array, approach: float) -> Violation:

@@ -9,7 +9,6 @@ import importlib.util
 from typing import Any, NamedTuple
 
 import numpy as np
-import scipy.fft
 from numpy.typing import NDArray
 
 from ...numerics.fft import Edges, fast_transforms_installed, mirrored_half
@@ -24,9 +23,11 @@ from .convolution import (
     symbol_of,
     symbol_width,
 )
+from .idle_memory import IdleMemory
 from .sparse_inverse import SparseInverse
 from .transfer import block_shape, nested_shapes
-from .two_level import CoarseBlocks, TwoLevel, inverse_stencil
+from .two_level import CoarseBlocks, Stencil, TwoLevel, inverse_stencil
+from .unit_response import UnitResponse, unit_response
 
 __all__ = ["GridLevel", "NestedGrids", "bytes_of", "compiled_loops", "prepare"]
 
@@ -93,7 +94,8 @@ class GridLevel(NamedTuple):
     quick : operator in single precision; its source is zero between uses, and has a frame that the
         stencil uses as well
     patch : the same around the free pixels of an isolated contact; none if periodic
-    response : displacement under unit pressure on the first pixel; to the middle if periodic
+    response : gives the displacement under unit pressure on the first pixel; to the middle if
+        periodic
     change : displacement added since the last exact one, in single precision
     inverse : sparse approximate inverse of the operator between the free pixels
     metric : the inverse in whose metric pressures are projected onto their bounds
@@ -103,7 +105,7 @@ class GridLevel(NamedTuple):
     steepest : largest eigenvalue of the operator
     uniform : displacement of a periodic map under uniform unit pressure
     loops : loops over the pixels, of numpy or compiled
-    room : memory that coarser grids share
+    room, lent : memory that coarser grids share, and transforms in single precision
     """
 
     pressure: NDArray[np.float64]
@@ -111,7 +113,7 @@ class GridLevel(NamedTuple):
     exact: Convolution | None
     quick: Convolution
     patch: Patch | None
-    response: NDArray[np.float64]
+    response: UnitResponse
     change: Singles
     inverse: SparseInverse | CellInverse
     two_level: TwoLevel | None
@@ -122,7 +124,8 @@ class GridLevel(NamedTuple):
     steepest: float
     uniform: float
     loops: Any
-    room: _Room
+    room: IdleMemory
+    lent: NDArray[Any]
 
     def reset(self) -> None:
         """Reset the counters, and the maps that a coarse grid has in the memory of the finest."""
@@ -200,19 +203,6 @@ class _Symbols:
         return symbol
 
 
-def _two_level(
-    symbols: _Symbols, shape: Shape, symbol: Floats, fast: bool, loops: Any, framed: Singles
-) -> TwoLevel:
-    blocks = None
-    if max(shape) >= LEAST_BLOCKED:
-        pixels = 4.0 if _decay(symbol, symbols.periodic) > STEEP else 8.0
-        sides = block_shape(shape, symbols.pixel(shape), pixels)
-        own = symbols.own(symbol, shape)
-        blocks = CoarseBlocks(shape, sides, symbols(sides), symbols.periodic, loops, fast, own)
-    stencil = inverse_stencil(symbol, symbol_width(shape[1], symbols.periodic))
-    return TwoLevel(shape, symbols.periodic is True, stencil, blocks, loops, framed)
-
-
 def _decay(symbol: Floats, periodic: Edges) -> float:
     """Decay of the symbol over the three shortest octaves, over that of a half-space, 1 / q."""
     column = symbol[:, 0] if periodic in (True, "y") else symbol[::2, 0]
@@ -228,93 +218,140 @@ def _stiffening(symbol: Floats, periodic: Edges) -> float:
     return float(compliance.max() / max(compliance[-1], 1e-300))
 
 
-def _response(symbol: Floats, shape: Shape, edges: Edges) -> Floats:
-    """Displacement under unit pressure on the first pixel; to the middle of a periodic map."""
-    ny, nx = shape
-    if not edges:  # the transform of an even map is a cosine transform of a quarter of it
-        made = scipy.fft.idctn(symbol[: ny + 1], type=1)[:ny, :nx]
-    else:
-        size = symbol.shape[0], symbol_width(nx, edges)
-        part = (ny // 2 + 1, nx // 2 + 1) if edges is True else shape
-        made = scipy.fft.irfft2(symbol, size)[: part[0], : part[1]]
-    return np.ascontiguousarray(made)
+class _Operator(NamedTuple):
+    """What a grid takes of its symbol, which is dropped: of a padded map it is two maps large.
 
-
-class _Room:
-    """Buffer of the gap of the finest grid, reused by the coarser ones, which are solved before it.
-
-    They only provide its initial guess; what does not fit gets memory of its own.
+    half : rows of the symbol that the others mirror
+    response : see `unit_response`; own : self influence; steepest : largest eigenvalue
+    decay, stiffening : of the symbol, over those of a half-space
+    uniform : displacement of a periodic map under uniform unit pressure
+    stencil, block : of `TwoLevel`, pixels along the sides of a block; none where that is poor
     """
 
-    def __init__(self, gap: Floats) -> None:
-        self._free = gap.reshape(-1)
+    half: Floats
+    response: Floats
+    own: float
+    steepest: float
+    decay: float
+    stiffening: float
+    uniform: float
+    stencil: Stencil | None
+    block: float
 
-    def take(self, shape: Shape, kind: Any = np.float64) -> NDArray[Any]:
-        """Give a map of zeros."""
-        size = -(-shape[0] * shape[1] * np.dtype(kind).itemsize // self._free.itemsize)
-        if size > self._free.size:
-            return np.zeros(shape, kind)
-        taken, self._free = self._free[:size], self._free[size:]
-        made: NDArray[Any] = taken.view(kind)[: shape[0] * shape[1]].reshape(shape)
-        return made
+
+def _operator(symbols: _Symbols, shape: Shape) -> _Operator:
+    # A window that repeats along one axis is isolated to all preconditioners but the metric.
+    symbol, edges = symbols(shape), symbols.periodic
+    half, of_pixels = mirrored_half(symbol), 1.0 if edges is True else PIXEL_DECAY
+    falls = _decay(symbol, edges)
+    decay, stiffening = falls / of_pixels, _stiffening(symbol, edges) / of_pixels
+    is_poor = decay > PLATE or stiffening > STIFF
+    return _Operator(
+        half=half if half is symbol else half.copy(),
+        response=unit_response(half, shape, edges),
+        own=symbols.own(symbol, shape),
+        steepest=float(symbol.max()),
+        decay=decay,
+        stiffening=stiffening,
+        uniform=float(symbol[0, 0]) if edges is True else 0.0,
+        stencil=None if is_poor else inverse_stencil(symbol, symbol_width(shape[1], edges)),
+        block=4.0 if falls > STEEP else 8.0,
+    )
+
+
+def _two_level(
+    symbols: _Symbols,
+    shape: Shape,
+    of: _Operator,
+    transforms: Transforms,
+    loops: Any,
+    framed: Singles,
+) -> TwoLevel | None:
+    if of.stencil is None:
+        return None
+    blocks, edges = None, symbols.periodic
+    if max(shape) >= LEAST_BLOCKED:
+        sides = block_shape(shape, symbols.pixel(shape), of.block)
+        if min(sides) < LEAST_THREADED:
+            transforms = transforms._replace(threads=1)
+        blocks = CoarseBlocks(shape, sides, symbols(sides), edges, loops, transforms, of.own)
+    return TwoLevel(shape, edges is True, of.stencil, blocks, loops, framed)
+
+
+class _Maps(NamedTuple):
+    """Maps of a grid, in the memory of others where these are idle.
+
+    Coarser grids, which only provide the first guess, are in the gap of the finest (`room`).
+    Transforms in single precision are in the spectrum of the exact one (`lent`), and so is the
+    change of the displacement, beside them: all are done with once the exact one runs again.
+    """
+
+    pressure: Floats
+    gap: Floats
+    framed: Singles
+    change: Singles
+    room: IdleMemory
+    lent: NDArray[Any]
+
+
+def _maps(shape: Shape, exact: Convolution | None, finest: GridLevel | None) -> _Maps:
+    single, with_frame, size = np.float32, (shape[0] + 2, shape[1] + 2), shape[0] * shape[1]
+    if finest is not None:
+        room, change = finest.room, finest.change[:size]
+        pressure, gap = room.take(shape, np.float64), room.take(shape, np.float64)
+        return _Maps(pressure, gap, room.take(with_frame, single), change, room, finest.lent)
+    assert exact is not None
+    idle = IdleMemory(exact.spectrum)
+    change = idle.take((size,), single)
+    framed, room = np.zeros(with_frame, single), IdleMemory(exact.target)
+    return _Maps(exact.source, exact.target, framed, change, room, idle.left)
 
 
 def _grid(
     symbols: _Symbols, shape: Shape, threads: int, fast: bool, loops: Any, finest: GridLevel | None
 ) -> GridLevel:
-    # A window that repeats along one axis is isolated to all preconditioners but the metric.
-    symbol, periodic = symbols(shape), symbols.periodic is True
+    of, edges, pixel = _operator(symbols, shape), symbols.periodic, symbols.pixel(shape)
+    periodic = edges is True
     threads = threads if min(shape) >= LEAST_THREADED else 1
     transforms = Transforms(threads, fast, loops.scale_spectrum)
-    half = mirrored_half(symbol)
-    exact = None
-    if finest is None:
-        exact = Convolution(shape, half, symbols.periodic, transforms)
-    response = _response(symbol, shape, symbols.periodic)
-    pixel = symbols.pixel(shape)
-    decay = _decay(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
-    stiffening = _stiffening(symbol, symbols.periodic) / (1.0 if periodic else PIXEL_DECAY)
-    reach, kind = (2, np.float64) if stiffening > STIFFEST else (1, np.float32)
-    metric = CellInverse(response, shape, pixel, symbols.periodic, loops, reach, kind)
-    is_stiff = stiffening > STIFF
-    lender: Convolution | None
-    single, with_frame = np.float32, (shape[0] + 2, shape[1] + 2)
-    if finest is None:
-        assert exact is not None
-        pressure, gap, room = exact.source, exact.target, _Room(exact.target)
-        lender = exact
-        framed, target = np.zeros(with_frame, single), np.zeros(shape, single)
-        change = np.zeros(shape[0] * shape[1], single)
-    else:
-        room, change = finest.room, finest.change[: shape[0] * shape[1]]
-        lender = finest.exact
-        pressure, gap = room.take(shape), room.take(shape)
-        framed, target = room.take(with_frame, single), room.take(shape, single)
-    quick = Convolution(shape, half, symbols.periodic, transforms, single, lender, (framed, target))
-    two_level = None
-    if decay <= PLATE and not is_stiff:
-        two_level = _two_level(symbols, shape, symbol, fast, loops, framed)
+    exact = Convolution(shape, of.half, edges, transforms) if finest is None else None
+    maps, response = _maps(shape, exact, finest), _kept(of.response, exact, edges)
+    idle = IdleMemory(maps.lent)
+    both = maps.framed, idle.take(shape, np.float32)
+    reach, kind = (2, np.float64) if of.stiffening > STIFFEST else (1, np.float32)
+    metric = CellInverse(response, shape, pixel, edges, loops, reach, kind)
+    is_stiff, is_steep = of.stiffening > STIFF, of.decay > STEEP
+    inverse: SparseInverse | CellInverse = metric
+    if not is_stiff and (isinstance(edges, bool) or of.stiffening <= LAYERED):
+        inverse = SparseInverse(of.response, shape, pixel, periodic, is_steep, loops, maps.framed)
     return GridLevel(
-        pressure=pressure,
-        gap=gap,
+        pressure=maps.pressure,
+        gap=maps.gap,
         exact=exact,
-        quick=quick,
-        patch=None if periodic else Patch(response, transforms, lender),
+        quick=Convolution(shape, of.half, edges, transforms, np.float32, idle, both),
+        patch=None if periodic else Patch(response, shape, transforms, maps.lent),
         response=response,
-        change=change,
-        inverse=metric
-        if is_stiff or (isinstance(symbols.periodic, str) and stiffening > LAYERED)
-        else SparseInverse(response, shape, pixel, periodic, decay > STEEP, loops, framed),
+        change=maps.change,
+        inverse=inverse,
         metric=metric,
         is_stiff=is_stiff,
-        two_level=two_level,
-        few=FEW if decay <= STEEP else int(FEW_STEEP * shape[0] * shape[1]),
+        two_level=_two_level(symbols, shape, of, transforms, loops, maps.framed),
+        few=int(FEW_STEEP * shape[0] * shape[1]) if is_steep else FEW,
         periodic=periodic,
-        steepest=float(symbol.max()),
-        uniform=float(symbol[0, 0]) if periodic else 0.0,
+        steepest=of.steepest,
+        uniform=of.uniform,
         loops=loops,
-        room=room,
+        room=maps.room,
+        lent=maps.lent,
     )
+
+
+def _kept(response: Floats, exact: Convolution | None, edges: Edges) -> UnitResponse:
+    """The response; of a large isolated map it is made again from the symbol when called for."""
+    if exact is None or edges or len(exact.spectrum) > len(response):
+        return UnitResponse(response)
+    shape = response.shape
+    return UnitResponse(lambda: unit_response(exact.symbol(), shape, False))
 
 
 def prepare(

@@ -137,7 +137,7 @@ class ReducedSystem:
         """Pressures that reduce the residual by a factor and sum to `missing`."""
         grid = self.grid
         if few_enough(self.at.size, grid.pressure.size):
-            matrix = influence_matrix(grid.response, self.at, grid.pressure.shape)
+            matrix = influence_matrix(grid.response(), self.at, grid.pressure.shape)
             x = solve_directly(matrix, r, missing if self.load_fixed else None)
             if x is not None:
                 self.is_direct = True

@@ -74,8 +74,7 @@ class ActiveSetState:
         else:
             self.approach = free_approach(self.p, self.g, self.upper)
         found = loops.violation(self.p, self.g, self.upper, self.approach)
-        total = float(self.p.sum())
-        energy = found.energy
+        total, energy = free.total, found.energy
         if self.load_fixed and not self.bounded:
             energy = found.deepest * total
         self.certificate = energy / (total * self.scale) if total > 0.0 else 0.0

@@ -100,16 +100,29 @@ def restrict(fine: Floats, shape: Shape) -> Floats:
     return np.ascontiguousarray((averaging_weights(fine.shape[1], shape[1]) @ rows.T).T)
 
 
-def prolong(coarse: Floats, shape: Shape) -> Floats:
+def prolong(coarse: Floats, shape: Shape, out: Floats | None = None) -> Floats:
     """Spread a map over a finer grid, each fine pixel with the value of the coarse one.
+
+    Parameters
+    ----------
+    coarse : ndarray (ny, nx)
+        Map, any unit.
+    shape : tuple of int
+        The finer grid.
+    out : ndarray, optional
+        Where to; another array than `coarse`.
 
     Examples
     --------
     >>> prolong(np.array([[1.0, 2.0]]), (1, 4))
     array([[1., 1., 2., 2.]])
     """
+    made = np.empty(shape) if out is None else out
     if shape == (2 * coarse.shape[0], 2 * coarse.shape[1]):
-        return np.repeat(np.repeat(coarse, 2, axis=0), 2, axis=1)
+        made[0::2] = np.repeat(coarse, 2, axis=1)
+        made[1::2] = made[0::2]
+        return made
     rows = averaging_weights(shape[0], coarse.shape[0]).T @ coarse * (shape[0] / coarse.shape[0])
     wide = averaging_weights(shape[1], coarse.shape[1]).T @ rows.T * (shape[1] / coarse.shape[1])
-    return np.ascontiguousarray(wide.T)
+    made[...] = wide.T
+    return made

@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from ...numerics.fft import Edges
 from .conjugate_gradient import conjugate_gradient
 from .convolution import (
+    BY_SCIPY,
     Convolution,
     Transforms,
     framed_places,
@@ -43,6 +44,7 @@ Singles = NDArray[np.float32]
 # Least eigenvalue to keep, as a part of the centre weight: with 0.01 and 0.3 the contacts of the
 # room take 1 % more applications (128 x 128 pixels).
 SAFE = 0.1
+ENOUGH = 1024  # rows of a symbol, of which the median is that of all
 
 
 class Stencil(NamedTuple):
@@ -93,7 +95,8 @@ def inverse_stencil(symbol: Floats, width: int) -> Stencil:
     """
     ny = symbol.shape[0]
     symbol = symbol[: ny // 2 + 1]  # even: the other half is the same
-    floor = 1e-3 * float(np.median(symbol))
+    some = symbol[:: max(1, ny // ENOUGH)]
+    floor = 1e-3 * float(np.median(some))
     k = 1.0 / np.maximum(symbol, floor)
     k[0, 0] = 0.0 if symbol[0, 0] <= floor else k[0, 0]
     k[1 : (ny + 1) // 2] *= 2.0
@@ -127,8 +130,8 @@ class CoarseBlocks:
         Whether the map repeats, or along which axis alone.
     loops : namespace
         Loops over the pixels.
-    fast : bool
-        Transforms by ducc0.
+    transforms : Transforms
+        Threads and backend.
     own : float
         Self influence of a pixel of the grid.
 
@@ -147,14 +150,13 @@ class CoarseBlocks:
         symbol: Floats,
         periodic: Edges,
         loops: Any,
-        fast: bool = False,
+        transforms: Transforms = BY_SCIPY,
         own: float = 1.0,
     ) -> None:
         self.shape, self.loops = blocks, loops
         self.load_fixed = False  # the sum is kept by `_without_mean`, in the weights of the blocks
         self.count = blocks[0] * blocks[1]
         self.width = shape[1]
-        transforms = Transforms(1, fast, loops.scale_spectrum)
         self.operator = Convolution(blocks, symbol, periodic, transforms, np.float32)
         self._row = np.arange(shape[0]) * blocks[0] // shape[0] * blocks[1]
         self._column = np.arange(shape[1]) * blocks[1] // shape[1]

@@ -27,7 +27,7 @@ def plate(shape, periodic):
 
 
 def inverse_of(K, shape, periodic, loops=loops_numpy, reach=1):
-    return CellInverse(K, shape, (1.0, 1.0), periodic, loops, reach)
+    return CellInverse(lambda: K, shape, (1.0, 1.0), periodic, loops, reach)
 
 
 @pytest.mark.parametrize("load_fixed", [True, False])

@@ -11,6 +11,7 @@ from selection import quick
 from contactkit.contact.solver import loops_numpy
 from contactkit.contact.solver.contact_solver import ContactSolver
 from contactkit.contact.solver.convolution import Convolution
+from contactkit.contact.solver.idle_memory import IdleMemory
 from contactkit.contact.solver.reduced_system import influence_matrix
 from contactkit.contact.solver.sparse_inverse import SparseInverse, lattice_strides
 from contactkit.contact.solver.warm_start import initial_pressure
@@ -152,7 +153,7 @@ def test_starts_that_cannot_be_are_refused_and_odd_ones_are_taken():
 def test_a_borrowed_spectrum_leaves_both_convolutions_right():
     symbol = np.random.default_rng(1).random((6, 5))
     first = Convolution((6, 8), symbol, True)
-    second = Convolution((6, 8), symbol, True, dtype=np.float32, lender=first)
+    second = Convolution((6, 8), symbol, True, dtype=np.float32, idle=IdleMemory(first.spectrum))
     p = np.random.default_rng(2).standard_normal((6, 8))
     a, b = first(p), second(p)
     np.testing.assert_allclose(b, a, atol=1e-5)
