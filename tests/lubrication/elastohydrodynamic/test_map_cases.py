@@ -89,7 +89,7 @@ SMOOTH = {
 }
 
 
-@pytest.mark.parametrize("name", quick(SMOOTH, long=[0, 2, 3]))
+@pytest.mark.parametrize("name", quick(SMOOTH, long=[2, 3]))
 def test_smooth_cases(name):
     """Force with mass and spring, a layer, cavities, two rupture pressures: cases of rings."""
     case = CASES[name]
