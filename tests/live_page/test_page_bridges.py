@@ -59,7 +59,8 @@ def test_humidity_and_angle_move_the_force_over_the_gap(names, places):
     family, wasm = family_with(*reversed(names)), Wasm()
     assert [slider.name for slider in family.sliders] == names
     assert family.error < 5e-3
-    assert family.sliders[0].low > 0.1, "drier, no meniscus spans the first gap"
+    if "angle" in names:
+        assert family.sliders[0].low > 0.1, "drier, no meniscus spans the first gap"
     for place in places:
         scene = with_values(humid(), dict(zip(family.sliders, place, strict=True)))
         plan = ck.plan(scene)

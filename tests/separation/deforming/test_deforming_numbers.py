@@ -65,9 +65,9 @@ def pressed(press, rest, *effects):
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 def test_pressing_traps_a_dimple():
-    """Against the section itself, on the finest mesh of another accuracy."""
+    """Against the section itself, on the finest mesh of another accuracy (6e-5 takes 10 s)."""
     found = ck.simulate(ck.plan(pressed(1e-3, 2.0)))
-    finer = ck.simulate(ck.plan(pressed(1e-3, 2.0), ck.Accuracy(film_rtol=6e-5)))
+    finer = ck.simulate(ck.plan(pressed(1e-3, 2.0), ck.Accuracy(film_rtol=1.5e-4)))
     trapped, unit = found.scalars()["trapped_volume"]
     assert unit == "m3"
     assert trapped == pytest.approx(finer.scalars()["trapped_volume"][0], rel=0.08)
