@@ -238,7 +238,7 @@ def test_devices_print_in_words(injector):
     assert "<li><b>hinge</b>" in mirror._repr_html_()
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_the_tip_decides_whether_the_mirror_releases():
     mirror = open_scene("micromirror").scene
     assert humidity_limit(mirror) == pytest.approx(0.55, abs=0.01)

@@ -141,7 +141,7 @@ def test_the_sources_inside_are_all_it_takes(fmu, tmp_path):
     assert release_of(folder) == pytest.approx(before, rel=1e-10)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="fmpy compiles with cmake")
 def test_fmpy_compiles_it(fmu, tmp_path):
     build = pytest.importorskip("fmpy.build")
