@@ -48,7 +48,7 @@ NUMBERS = {
 
 # five seconds to half a minute
 LONG = ("area_and_theories", "coated_sphere", "roller_on_sheet", "sphere_pull_off")
-LONG += ("viscoelastic_sphere",)
+LONG += ("step_the_fmu", "viscoelastic_sphere")
 
 
 def load(name):

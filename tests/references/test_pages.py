@@ -16,14 +16,12 @@ QUICK = (
 )
 SLOW = (
     "contact_square",
-    "rough_area",
     "rupture_work",
     "cold_oil",
-    "full_contact",
     "laser_bumps",
     "bridge_rupture",
 )
-LONG = ("capillary_rough",)  # four seconds or more
+LONG = ("capillary_rough", "full_contact", "rough_area")  # some seconds; each part has its tests
 
 
 @pytest.mark.parametrize(

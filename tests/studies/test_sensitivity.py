@@ -214,7 +214,7 @@ def test_the_oil_decides_how_long_the_spool_sticks(injector):
     assert got.influence("temperature").swing(got.base) < 1e-6
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_a_film_that_sustains_its_strength_closes_late(injector):
     late = sustaining(injector)
     assert closing_lag(injector) == pytest.approx(4e-6, abs=1e-6)

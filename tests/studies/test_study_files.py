@@ -143,7 +143,9 @@ def test_seeds_are_shown_as_medians_and_written_as_bands(file, tmp_path, capsys)
     assert (tmp_path / "study-bands.npz").is_file()
 
 
-@pytest.mark.parametrize("kind", FILES)
+@pytest.mark.parametrize(
+    "kind", ["separation", "sliding", pytest.param("contact", marks=pytest.mark.exhaustive)]
+)
 def test_a_study_is_drawn_with_its_bands(file, tmp_path, monkeypatch, kind):
     plot = pytest.importorskip("contactkit.plot.study")
     drawn = []

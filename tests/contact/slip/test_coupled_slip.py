@@ -157,7 +157,7 @@ def test_a_tangential_path_balances_work_elastic_energy_and_friction():
     assert stored + part.dissipated_work[-1] == pytest.approx(work, rel=2e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_large_coefficients_stick_the_more_the_finer_the_steps_of_pressing():
     _, coarse = pressed(coefficient=10.0, nu=0.0, pressing_steps=2)
     _, fine = pressed(coefficient=10.0, nu=0.0, pressing_steps=8)

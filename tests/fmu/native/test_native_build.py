@@ -104,7 +104,7 @@ def digest(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive  # by another compiler: `test_a_rebuild_elsewhere_is_the_same`
 def test_rebuild_is_byte_identical(fmu, unpacked, tmp_path):
     again = build_native(SCENES["drop"], tmp_path / "again.fmu", **ONE)
     assert digest(again) == digest(fmu)

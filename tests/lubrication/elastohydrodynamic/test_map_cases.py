@@ -20,7 +20,7 @@ def off(found, expected):
     return np.abs(found - np.array(expected)).max() / np.abs(expected).max()
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_rough_pull():
     """Within the error stated for the case; the smallest gap is of one cell, of no order."""
     case = CASES["rough_sphere_pull"]
