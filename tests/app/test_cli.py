@@ -214,7 +214,7 @@ HISTORY = (
 )
 
 
-@pytest.mark.parametrize(("effects", "study", "figure", "names"), quick([SLIP, HISTORY]))
+@pytest.mark.parametrize(("effects", "study", "figure", "names"), quick([SLIP, HISTORY], long=[0]))
 def test_a_study_of_an_effect_shows_its_numbers_over_what_varies(
     tmp_path, capsys, monkeypatch, effects, study, figure, names
 ):

@@ -148,8 +148,9 @@ def test_a_digit_is_the_slope_of_the_logarithms():
         "compliances",
         *(
             pytest.param(name, marks=pytest.mark.slow)
-            for name in ("releases", "bridge-force", "slip", "history", "lines", "waves")
+            for name in ("bridge-force", "slip", "history", "lines")
         ),
+        *(pytest.param(name, marks=pytest.mark.exhaustive) for name in ("releases", "waves")),
     ],
 )
 def test_errors_of_a_study_are_within_its_bounds(name, monkeypatch):

@@ -46,7 +46,9 @@ NUMBERS = {
 }
 
 
-LONG = ("area_and_theories", "coated_sphere", "roller_on_sheet")  # ten seconds to half a minute
+# five seconds to half a minute
+LONG = ("area_and_theories", "coated_sphere", "roller_on_sheet", "sphere_pull_off")
+LONG += ("step_the_fmu", "viscoelastic_sphere")
 
 
 def load(name):

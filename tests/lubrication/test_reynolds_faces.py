@@ -172,8 +172,10 @@ def test_a_carried_roughness_and_a_frame_that_moves_with_it():
     rate = reynolds.carried_rate(face, upper_heights=wave, upper_velocity=(0.3, 0.0))
     moving = squeeze(face, 1e-5 + wave, rate, upper_velocity=(0.3, 0.0))
     resting = squeeze(face, 1e-5 + wave, 0.0, lower_velocity=(-0.3, 0.0))
-    assert moving.force == pytest.approx(resting.force, rel=0.02)
-    assert abs(moving.force) > 0.0
+    # The whole force is zero by symmetry: pressure by pressure, here to 2e-3 of the largest.
+    found, known = (np.where(face.inside, one.pressure, 0.0) for one in (moving, resting))
+    np.testing.assert_allclose(found, known, rtol=0.0, atol=1e-2 * known.max())
+    assert known.max() > 1e4
 
 
 def test_torque_of_a_tilting_film_is_antisymmetric():

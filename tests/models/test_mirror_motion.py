@@ -64,7 +64,7 @@ def test_work_on_the_root_is_stored_or_dissipated(law, request):
     assert state.free
     left = stored(made, state, height + speed * span)
     used = separation_energy(made) + state.motion.dissipated_work
-    assert speed * state.impulse == pytest.approx(left - before + used, rel=2e-5)
+    assert speed * state.impulse == pytest.approx(left - before + used, rel=2e-5, abs=0.0)
     assert used > 1e-3 * left
 
 
@@ -100,7 +100,7 @@ def test_a_flight_is_what_an_integrator_gives(wet, damping):
     assert state.landing_time == pytest.approx(found.t[-1], rel=1e-9)
     assert state.motion.in_contact
     speed = found.y[1, -1]
-    assert state.landing_loss == pytest.approx(0.5 * loading.mass * speed**2, rel=1e-7)
+    assert state.landing_loss == pytest.approx(0.5 * loading.mass * speed**2, rel=1e-7, abs=0.0)
 
 
 def test_a_swing_that_dips_between_two_looks_is_seen():
@@ -165,7 +165,7 @@ def test_the_division_of_time_does_not_matter(wet):
     assert whole.free_time > 0.0
     assert parts.free_time == pytest.approx(whole.free_time, rel=1e-8)
     assert parts.gap == pytest.approx(whole.gap, rel=1e-5)
-    assert parts.impulse == pytest.approx(whole.impulse, rel=1e-6)
+    assert parts.impulse == pytest.approx(whole.impulse, rel=1e-6, abs=0.0)
 
 
 def test_a_landed_tip_passes_on_the_force_of_its_spring(wet):
@@ -181,7 +181,7 @@ def test_a_landed_tip_passes_on_the_force_of_its_spring(wet):
 def test_without_losses_energy_stays(scene, wet):
     """What bent tips and hinge stored is motion, or was dissipated by the menisci."""
     mirror, loading, n = lossless(scene), scene.loading, scene.mirror.tips.per_side
-    tips, tilt = scene.tips(wet), scene.start[0]
+    tips, tilt = evolve(scene, mirror=mirror).tips(wet), scene.start[0]
 
     def energy(tilt, rate):
         hinge = mirror.hinge
@@ -196,7 +196,8 @@ def test_without_losses_energy_stays(scene, wet):
     assert state.free
     used = n * (separation_energy(wet) + state.motion.dissipated_work)
     after = energy(found["tilt"][-1], found["rate"][-1])
-    assert after + used == pytest.approx(before, rel=1e-7)
+    # 2.5e-5 by the exchange every 5 ns; both tips without damping, as the hinge.
+    assert after + used == pytest.approx(before, rel=1e-4, abs=0.0)
     assert used > 0.01 * before
 
 
@@ -224,7 +225,7 @@ def test_with_voltage_and_damping_it_balances_too(scene, dry):
         return moving + 0.5 * hinge.stiffness * tilt[i] ** 2 + 0.5 * n * stiffness * bend**2
 
     # The free tips of the other side swing with their roots: a part in a thousand.
-    assert energy(-1) - energy(0) + lost == pytest.approx(work, rel=5e-3)
+    assert energy(-1) - energy(0) + lost == pytest.approx(work, rel=5e-3, abs=0.0)
 
 
 def test_the_coupling_converges_to_the_monolithic_model(scene, wet):

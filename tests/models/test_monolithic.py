@@ -150,7 +150,7 @@ def firing():
 
 @pytest.mark.parametrize(
     ("temperature", "vapour", "bears"),
-    quick([(-20, 0.34223, 0.55449), (20, 0.34219, 0.54110), (80, 0.34200, 0.50889)], long=[0, 2]),
+    quick([(-20, 0.34223, 0.55449), (20, 0.34219, 0.54110), (80, 0.34200, 0.50889)], long=[2]),
 )
 def test_what_the_cavity_holds_decides_when_the_spool_is_released(
     firing, temperature, vapour, bears
@@ -172,7 +172,7 @@ def test_what_the_cavity_holds_decides_when_the_spool_is_released(
         assert "film breaks" not in whats
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_a_warm_film_is_full_again_within_a_cycle_and_a_cold_one_is_not(firing):
     for sustained in (False, True):
         assert firing(80, sustained)["void_volume"][-1] == 0.0
@@ -255,9 +255,10 @@ def test_a_film_that_cavitates_is_released_as_by_the_exact_edge(name, scene):
     ]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("drop", [1e6, 1e5])
-@pytest.mark.parametrize("volume", [None, DROP])
+@pytest.mark.parametrize(
+    ("volume", "drop"),
+    quick([(None, 1e6), (None, 1e5), (DROP, 1e6), (DROP, 1e5)], long=[0, 3]),
+)
 def test_opening_closing_and_opening_again_agree_with_the_motion_of_contactkit(drop, volume):
     """Cavitated, returned, full or cavitated further: each phase of the memory, by two methods."""
 

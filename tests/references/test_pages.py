@@ -16,18 +16,21 @@ QUICK = (
 )
 SLOW = (
     "contact_square",
-    "rough_area",
     "rupture_work",
     "cold_oil",
-    "capillary_rough",
-    "full_contact",
     "laser_bumps",
     "bridge_rupture",
-)  # up to ten seconds each
+)
+LONG = ("capillary_rough", "full_contact", "rough_area")  # some seconds; each part has its tests
 
 
 @pytest.mark.parametrize(
-    "name", [*QUICK, *(pytest.param(name, marks=pytest.mark.slow) for name in SLOW)]
+    "name",
+    [
+        *QUICK,
+        *(pytest.param(name, marks=pytest.mark.slow) for name in SLOW),
+        *(pytest.param(name, marks=pytest.mark.exhaustive) for name in LONG),
+    ],
 )
 def test_contactkit_agrees_with_others(name):
     module = load(folder() / "measured" / f"{name}.py").module
@@ -37,7 +40,7 @@ def test_contactkit_agrees_with_others(name):
     assert not wrong, "\n".join(wrong)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.filterwarnings("ignore::contactkit.ValidityWarning")
 def test_what_disagrees_disagrees_as_stated():
     module = load(folder() / "measured" / "measured_bridges.py").module

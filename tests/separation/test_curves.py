@@ -92,12 +92,16 @@ def departures(found, exact, along="time", n=1000):
     return worst
 
 
-LONG = {"stiffer", "massless", "cavity that reforms", "cut-off pressure", "shear", "closes first"}
-LONG |= {"inertial", "ramp from rest", "ball", "film that breaks", "cavity"}
+SHORT, LONG = {"stiff", "moderate", "spring"}, {"cavity that reforms", "shear"}
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=pytest.mark.slow) if n in LONG else n for n in PULLS]
+    "name",
+    quick(
+        PULLS,
+        *(i for i, name in enumerate(PULLS) if name in SHORT),
+        long=[i for i, name in enumerate(PULLS) if name in LONG],
+    ),
 )
 def test_lines_between_points_of_a_pull_are_right(name):
     found, exact = run(PULLS[name]), run(PULLS[name], time_rtol=1e-10, curve_rtol=5e-5)
@@ -296,7 +300,7 @@ def test_lines_over_cycles_are_right(amplitude, frequency, is_cut):
         pytest.param(vibrated(film(CAVITATING, viscosity=0.1), 2e-6), marks=pytest.mark.slow),
         pytest.param(
             vibrated(film(ck.TensionLimit(strength="vapour"), viscosity=0.1), 5e-7, phase=1.3),
-            marks=pytest.mark.slow,
+            marks=pytest.mark.exhaustive,
         ),
         vibrated(film(ck.ShearLimit(strength=1e4), viscosity=0.1), 2e-6),
         vibrated(film(*MENISCUS, volume=1e-11), 1e-6, final_gap=60e-6, speed=5e-3),

@@ -235,7 +235,9 @@ def test_the_earlier_name_of_the_gap_means_the_same():
     form = {"liquid": water, "radius": 100e-9}
     assert ck.Meniscus.from_radius(**form, gap=2e-9) == ck.Meniscus.from_radius(**form, at_gap=2e-9)
     given = {"liquid": water, "coverage": 0.5, "area": 1e-12}
-    assert ck.Meniscus.from_coverage(**given, gap=2e-9).volume == pytest.approx(1e-21, rel=1e-15)
+    assert ck.Meniscus.from_coverage(**given, gap=2e-9).volume == pytest.approx(
+        1e-21, rel=1e-12, abs=0.0
+    )
     with pytest.raises(DescriptionError, match=r"\(at_gap\) must be given once .*gap is"):
         ck.Meniscus.from_radius(**form, gap=2e-9, at_gap=2e-9)
     with pytest.raises(DescriptionError, match=r"from_coverage\(at_gap\) must be given \[m\]"):

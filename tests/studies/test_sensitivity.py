@@ -214,7 +214,7 @@ def test_the_oil_decides_how_long_the_spool_sticks(injector):
     assert got.influence("temperature").swing(got.base) < 1e-6
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_a_film_that_sustains_its_strength_closes_late(injector):
     late = sustaining(injector)
     assert closing_lag(injector) == pytest.approx(4e-6, abs=1e-6)
@@ -238,7 +238,7 @@ def test_devices_print_in_words(injector):
     assert "<li><b>hinge</b>" in mirror._repr_html_()
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_the_tip_decides_whether_the_mirror_releases():
     mirror = open_scene("micromirror").scene
     assert humidity_limit(mirror) == pytest.approx(0.55, abs=0.01)

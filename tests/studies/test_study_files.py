@@ -143,7 +143,9 @@ def test_seeds_are_shown_as_medians_and_written_as_bands(file, tmp_path, capsys)
     assert (tmp_path / "study-bands.npz").is_file()
 
 
-@pytest.mark.parametrize("kind", FILES)
+@pytest.mark.parametrize(
+    "kind", ["separation", "sliding", pytest.param("contact", marks=pytest.mark.exhaustive)]
+)
 def test_a_study_is_drawn_with_its_bands(file, tmp_path, monkeypatch, kind):
     plot = pytest.importorskip("contactkit.plot.study")
     drawn = []
@@ -165,7 +167,9 @@ def test_a_study_is_drawn_with_its_bands(file, tmp_path, monkeypatch, kind):
     assert labels == {wanted[kind]}
 
 
-@pytest.mark.parametrize("kind", FILES)
+@pytest.mark.parametrize(
+    "kind", [pytest.param("sliding", marks=pytest.mark.exhaustive), "separation", "contact"]
+)
 def test_a_study_over_its_reference_scales(file, tmp_path, capsys, kind):
     arguments = ["study", file(FILES[kind]), "--dimensionless", "--out", str(tmp_path)]
     assert main(arguments) == 0
@@ -198,7 +202,9 @@ def test_a_study_goes_on_from_its_store(file, tmp_path, capsys):
     assert "3 points from the store" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("kind", ["separation", "sliding"])
+@pytest.mark.parametrize(
+    "kind", ["separation", pytest.param("sliding", marks=pytest.mark.exhaustive)]
+)
 def test_run_and_plan_include_the_study_of_the_file(file, tmp_path, capsys, kind):
     path = file(FILES[kind])
     assert main(["plan", path]) == 0

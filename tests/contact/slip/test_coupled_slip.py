@@ -157,7 +157,7 @@ def test_a_tangential_path_balances_work_elastic_energy_and_friction():
     assert stored + part.dissipated_work[-1] == pytest.approx(work, rel=2e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_large_coefficients_stick_the_more_the_finer_the_steps_of_pressing():
     _, coarse = pressed(coefficient=10.0, nu=0.0, pressing_steps=2)
     _, fine = pressed(coefficient=10.0, nu=0.0, pressing_steps=8)
@@ -210,7 +210,7 @@ def test_the_stated_error_of_pressing_is_no_less_than_the_true_one():
         assert error <= part.coupling.step_error <= 4.0 * error
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_a_sphere_pressed_by_default_sticks_as_far_as_spence_has_it():
     """Tractions hardly change the pressure here; eight steps, given, are 5 % off."""
     beta = (1.0 - 2.0 * 0.45) / (2.0 * (1.0 - 0.45))

@@ -104,7 +104,7 @@ def digest(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive  # by another compiler: `test_a_rebuild_elsewhere_is_the_same`
 def test_rebuild_is_byte_identical(fmu, unpacked, tmp_path):
     again = build_native(SCENES["drop"], tmp_path / "again.fmu", **ONE)
     assert digest(again) == digest(fmu)
@@ -141,7 +141,7 @@ def test_the_sources_inside_are_all_it_takes(fmu, tmp_path):
     assert release_of(folder) == pytest.approx(before, rel=1e-10)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="fmpy compiles with cmake")
 def test_fmpy_compiles_it(fmu, tmp_path):
     build = pytest.importorskip("fmpy.build")

@@ -48,8 +48,13 @@ def events(host):
     return [entry.message.split(" at ")[0] for entry in host.log if entry.category == "logEvents"]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("face", [RING, PAD], ids=["ring", "tilted"])
+@pytest.mark.parametrize(
+    "face",
+    [
+        pytest.param(RING, id="ring", marks=pytest.mark.slow),
+        pytest.param(PAD, id="tilted", marks=pytest.mark.exhaustive),
+    ],
+)
 def test_a_face_pulled_pressed_and_pulled_again_moves_as_in_python(face, native):
     """It cavitates, releases, is full again and cavitates anew.
 

@@ -83,10 +83,14 @@ def test_the_kernel_releases_to_its_tolerance(pull, hosts):
         assert speed <= 2.0 * rtol + REFERENCE
 
 
-@pytest.mark.slow
-def test_a_thousand_releases_of_the_kernel_are_right_to_their_tolerance(hosts):
-    solved = zip(pulls(1000, seed=2), kept("steps"), strict=True)
-    for i, (pull, right) in enumerate(solved):
+@pytest.mark.parametrize(
+    "every",
+    [pytest.param(8, marks=pytest.mark.slow), pytest.param(1, marks=pytest.mark.exhaustive)],
+)
+def test_a_thousand_releases_of_the_kernel_are_right_to_their_tolerance(hosts, every):
+    solved = list(zip(pulls(1000, seed=2), kept("steps"), strict=True))
+    for i in (i for i in range(1000) if i // 4 % every == 0):  # all tolerances
+        pull, right = solved[i]
         rtol = (1e-4, 1e-6, 1e-8, 1e-10)[i % 4]
         release, time, speed = errors(hosts[pull.exponent], pull, right, rtol)
         assert release <= rtol + REFERENCE, (pull, rtol)

@@ -69,20 +69,26 @@ def phases_of(given, times):
     ]
 
 
-SLOW = {"rupture_pull_beta0.1", "rupture_cycle_beta0.1", "two_pressures_beta1"} | {
-    "contact_dwell_pull_beta0.1",
-    "push_speed_beta0.01",
-    "push_speed_beta10",
-    "flat_pull_beta0.1",
-    "rim_pull_beta0.05_v1",
-    "winkler_pull",
-    "pull_spring_beta1",
-    "pull_speed_beta0.001",
-    "layer_pull_beta1_t2_nu0.3",
-    "pull_mass_beta0.1",
-}
+SLOW = dict.fromkeys(
+    (
+        "rupture_cycle_beta0.1",
+        "two_pressures_beta1",
+        "contact_dwell_pull_beta0.1",
+        "push_speed_beta0.01",
+        "push_speed_beta10",
+        "flat_pull_beta0.1",
+        "rim_pull_beta0.05_v1",
+        "winkler_pull",
+        "pull_spring_beta1",
+        "pull_speed_beta0.001",
+        "layer_pull_beta1_t2_nu0.3",
+        "pull_mass_beta0.1",
+    ),
+    pytest.mark.slow,
+)
+SLOW["rupture_pull_beta0.1"] = pytest.mark.exhaustive  # what ruptures is in the cycle as well
 MOTIONS = [
-    pytest.param(name, marks=[pytest.mark.slow] if name in SLOW else [])
+    pytest.param(name, marks=SLOW.get(name, []))
     for name, case in CASES.items()
     if case["kind"] in ("coupled_motion", "coupled_bridge")
 ]

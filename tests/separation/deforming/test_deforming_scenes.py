@@ -177,7 +177,7 @@ def test_files_and_copies(pulled, tmp_path):
 @pytest.mark.slow
 def test_a_study_varies_it():
     rough = ck.Accuracy(film_rtol=2e-2)
-    study = ck.study(scene(), {"loading.speed": [1e-6, 1e-5]}, rough)
+    study = ck.study(scene(), {"loading.speed": [5e-6, 1e-5]}, rough)
     slow, fast = study.column("pull_off_force")
     assert slow < fast
 

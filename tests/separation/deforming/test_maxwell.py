@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from selection import quick
 
 import contactkit as ck
 from contactkit.app.scene_fmu import fmu_start
@@ -41,8 +42,9 @@ def test_the_spring_is_that_of_small_vibrations():
         assert series_stiffness(*args, 1e9) == pytest.approx(loss**2 / storage, rel=1e-12)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("beta", "peak", "late"), [(1e-3, 4e-3, 1e-3), (HOLDS_TO, 2e-2, 1.2e-2)])
+@pytest.mark.parametrize(
+    ("beta", "peak", "late"), quick([(1e-3, 4e-3, 1e-3), (HOLDS_TO, 2e-2, 1.2e-2)], long=[1])
+)
 def test_a_pull_is_right_to_what_it_states(beta, peak, late):
     modulus = 0.1 * SPEED * R**1.5 / (beta * GAP**2.5)
     loading = ck.ImposedSpeed(speed=SPEED, initial_gap=GAP, final_gap=3e-6)

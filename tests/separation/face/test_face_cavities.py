@@ -40,14 +40,22 @@ def one_pressure(tension):
 
 
 @pytest.mark.parametrize(
-    ("name", "error"),
-    quick([("pull_flooded_jfo_0.1", 2e-3), ("pull_flooded_jfo_dp1.25e+06", 1e-2)], long=[0]),
+    ("name", "accuracy", "error"),
+    quick(
+        [
+            ("pull_flooded_jfo_0.1", ROUGHLY, 4e-3),
+            ("pull_flooded_jfo_0.1", ck.Accuracy.standard, 2e-3),
+            ("pull_flooded_jfo_dp1.25e+06", ck.Accuracy.standard, 1e-2),
+        ],
+        long=[0],
+    ),
 )
-def test_a_disc_is_pulled_apart_as_its_edge_says(name, error):
+def test_a_disc_is_pulled_apart_as_its_edge_says(name, accuracy, error):
     """Release of the injector by the ODE of the exact edge of a round cavity."""
     given, values = inputs(name), CASES[name]["values"]
     limit = one_pressure(given["tension"])
-    found = ck.simulate(ck.plan(scene(NOTCHED, limit, viscosity=given["viscosity"]))).state
+    pulled = scene(NOTCHED, limit, viscosity=given["viscosity"])
+    found = ck.simulate(ck.plan(pulled, accuracy)).state
     assert found.release_time == pytest.approx(values["t_release"], rel=error)
     assert found.release_speed == pytest.approx(values["v_release"], rel=5.0 * error)
     assert found.cavity.void == pytest.approx(values["void_volume_end"], rel=5.0 * error)

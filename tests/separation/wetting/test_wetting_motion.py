@@ -65,7 +65,7 @@ def unslowed(*effects, speed=1e-3, **given):
     [
         (COX, 0.6, FLAT),
         (COX, 1.9, FLAT),
-        (COX, 0.6, BALL),
+        pytest.param(COX, 0.6, BALL, marks=pytest.mark.exhaustive),
         (LANDAU, 0.0, BALL),
         (RUPTURE, 0.6, FLAT),
     ],
