@@ -26,6 +26,8 @@ NUISANCES = ("shift", "zero", "scale", "stiffness")
 
 
 def _array(value: Any) -> Floats:
+    if isinstance(value, np.ma.MaskedArray):
+        value = value.astype(np.float64).filled(np.nan)  # which is refused with its index
     try:
         found = np.array(value, dtype=np.float64)
     except (TypeError, ValueError) as error:
