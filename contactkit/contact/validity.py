@@ -237,9 +237,10 @@ def _cut_off(contact: SolvedContact) -> ValidityNumber:
     if edges != "x":
         ends[:, [0, -1]] = True
     load = float(np.abs(pressure).sum())
+    touching = ends & contact.touching  # attraction reaches farther, and has a number of its own
     return ValidityNumber(
         name="load at the edge of the window over the load",
-        value=float(np.abs(pressure[ends]).sum()) / load if load else None,
+        value=float(np.abs(pressure[touching]).sum()) / load if load else None,
         high=0.0,
         detail="the contact of the round body reaches the edge of the window, where the body ends; "
         "use a wider window"
