@@ -400,7 +400,9 @@ def test_balls_from_a_lens_to_a_tip_are_plausible(radius, modulus, force, width)
         ((1.8, 1.8), False, True),
         ((1.8, 2.6), False, True),
         ((1.8, 2.6), "x", False),  # repeats along x, ends along y
+        ((2.6, 1.8), "x", True),
         ((1.8, 2.6), "y", True),
+        ((2.6, 1.8), "y", False),
         ((1.8, 1.8), True, False),
     ],
 )

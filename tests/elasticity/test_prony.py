@@ -104,8 +104,8 @@ def test_a_table_that_no_solid_has_is_pointed_out():
     assert made.instantaneous.young_modulus == pytest.approx(1e7, rel=1e-6)
     with pytest.warns(ck.ValidityWarning, match="Prony series over the modulus.*the order is"):
         ck.ViscoelasticMaterial.from_table(storage, loss, OMEGA, **given)
-    noise = 1.0 + 0.1 * np.random.default_rng(1).standard_normal(OMEGA.size)
-    ck.ViscoelasticMaterial.from_table(OMEGA, noise * storage, loss, **given)
+    noise = 1.0 + 0.1 * np.random.default_rng(6).standard_normal((2, OMEGA.size))
+    ck.ViscoelasticMaterial.from_table(OMEGA, *(noise * (storage, loss)), **given)
 
 
 @pytest.mark.errors
