@@ -26,10 +26,9 @@ NUISANCES = ("shift", "zero", "scale", "stiffness")
 
 
 def _array(value: Any) -> Floats:
-    if isinstance(value, np.ma.MaskedArray):
-        value = value.astype(np.float64).filled(np.nan)  # which is refused with its index
     try:
-        found = np.array(value, dtype=np.float64)
+        # A masked value is nan, which is refused with its index.
+        found = np.array(np.ma.filled(np.ma.array(value, dtype=np.float64), np.nan))
     except (TypeError, ValueError) as error:
         hint = f"{error}; units go into units=, such as ('um', 'mN')"
         raise DescriptionError("MeasuredCurve", value, "hold numbers", hint=hint) from None

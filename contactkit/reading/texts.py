@@ -85,10 +85,8 @@ def decoded(content: bytes, where: str) -> str:
     >>> decoded(b"gap [\xb5m]", "pull.csv"), decoded("gap".encode("utf-16"), "pull.csv")
     ('gap [µm]', 'gap')
     """
-    encodings = ("utf-8-sig", "cp1252")
-    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        encodings = ("utf-16",)
-    for encoding in encodings:
+    is_marked = content.startswith((b"\xff\xfe", b"\xfe\xff"))
+    for encoding in ["utf-16"] if is_marked else ["utf-8-sig", "cp1252"]:
         with suppress(UnicodeDecodeError):
             text = content.decode(encoding)
             if "\0" not in text:
