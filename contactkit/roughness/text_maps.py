@@ -128,7 +128,7 @@ def read_matrix(file: Path, *, holes: bool = False) -> Array:
 
 
 def _numbers(file: Path, layout: _Layout, *, holes: bool) -> Iterator[str]:
-    """Data lines with decimal points, and nan for cells that are empty or say as much."""
+    """Data lines with decimal points, and nan for cells that are empty or marked."""
     for _, data in _data_lines(file):
         line = data.replace(",", ".") if layout.has_decimal_commas else data
         if holes:

@@ -51,7 +51,7 @@ def test_files_as_spreadsheets_instruments_and_numpy_write_them(tmp_path, conten
 
 
 @pytest.mark.parametrize("unit", ["degC", "°C"])
-def test_temperatures_are_in_degrees_celsius_if_the_head_says_so(tmp_path, unit):
+def test_temperatures_are_in_degrees_celsius_if_the_head_states_it(tmp_path, unit):
     path = tmp_path / "a.csv"
     path.write_text(f"temperature [{unit}],release_time [ms]\n20,3\n80,1\n")
     found = ck.read_measured_curve(path, "temperature", "release_time", shift="0.5 K")
