@@ -65,18 +65,21 @@ def _extremes(
     for i in range(0, n, together):
         end = min(i + together, n)
         h, p = heights[i:end, ...], pressure[i:end, ...]
-        # Of isolated maps what is in contact counts alone, as by `press`.
-        weight = xp.astype(p > 0.0, space.dtype) if periodic is not True else xp.ones_like(p)
+        # Where an edge does not repeat what is in contact counts alone, as by `press`.
+        touching = None if periodic is True else xp.astype(p > 0.0, space.dtype)
         squares, jump = 0.0, 0.0
         for axis, size, along in ((-2, pixel_size[0], "y"), (-1, pixel_size[1], "x")):
             first, last, upper, lower = _lines(h, axis)
             step = (upper - lower) ** 2
-            some = _lines(weight, axis)[3]
-            total = xp.maximum(xp.sum(some, axis=(-2, -1)), 1.0)
-            squares = squares + xp.sum(step * some, axis=(-2, -1)) / total / size**2
+            line = xp.mean(step, axis=-1 if axis == -2 else -2)  # of each step from line to line
+            square = xp.mean(line, axis=-1)
+            if touching is not None:
+                some = _lines(touching, axis)[3]
+                total = xp.maximum(xp.sum(some, axis=(-2, -1)), 1.0)
+                square = xp.sum(step * some, axis=(-2, -1)) / total
+            squares = squares + square / size**2
             if periodic is True or periodic == along:
-                other = -1 if axis == -2 else -2
-                inside = xp.max(xp.mean(step, axis=other), axis=-1)
+                inside = xp.max(line, axis=-1)
                 across = xp.mean((first - last) ** 2, axis=-1)
                 ratio = xp.where(inside > 0.0, across / xp.where(inside > 0.0, inside, 1.0), 0.0)
                 jump = max(jump, math.sqrt(float(xp.max(ratio))))
