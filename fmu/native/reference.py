@@ -32,6 +32,7 @@ from ..contents.packing import write_archive
 from ..contents.references import ReferenceRun, reference_files
 from .film import moving
 from .ports import Model, start_of
+from .rheology import with_rheology
 
 __all__ = ["add_reference", "reference_run"]
 
@@ -107,7 +108,7 @@ def reference_run(
             "of its own; leave out --reference"
         )
     accuracy = _EXACT if film_rtol is None else evolve(_EXACT, film_rtol=film_rtol)
-    made = plan(scene, accuracy)
+    made = plan(with_rheology(scene), accuracy)
     remembers = made.film.cavity is not None
     if remembers and model == "stiction-force":
         raise PlanError(
