@@ -22,6 +22,7 @@ from ...separation.face.shape import on_face
 from ...separation.film import Film as PlanFilm
 from ...separation.plan import Plan, plan
 from ...separation.rheology.prepared_film import PreparedFilm as RheologyOfFilm
+from ..slaves.rheology import is_rheological, with_rheology
 from .records import (
     Film,
     FilmTables,
@@ -34,14 +35,7 @@ from .records import (
     Scaling,
     Table,
 )
-from .rheology import (
-    is_rheological,
-    nearest_gap,
-    rheological_film,
-    rheology_record,
-    scaling_of,
-    with_rheology,
-)
+from .rheology import nearest_gap, rheological_film, rheology_record, scaling_of
 from .tables import Tabulate, tabulate
 
 __all__ = [

@@ -20,12 +20,12 @@ from ...separation.effects.viscous import TensionLimit, ViscousForce, keeps_radi
 from ...separation.face.shape import on_face
 from ..framework.places import read
 from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
+from ..slaves.rheology import is_rheological
 from ..slaves.stiction_mass import PLACES
 from ..slaves.tension import TENSIONS, tension_values
 from .film import can_cavitate, free_liquid
 from .models import TEMPERATURE, native_model
 from .records import LiquidTable
-from .rheology import is_rheological
 
 __all__ = ["Model", "check_free", "native_ports", "start_of", "with_temperature"]
 

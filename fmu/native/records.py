@@ -156,9 +156,7 @@ class Rheology(Record):
 
     scaling: Scaling = member_of(Scaling, "what it is a function of")
     viscosity: float = positive("viscosity at rest that it was made of [Pa.s]")
-    stretches: tuple[Stretch, ...] = several(
-        Stretch, "in the order of their gaps", most=4, least=1
-    )
+    stretches: tuple[Stretch, ...] = several(Stretch, "in the order of their gaps", most=4, least=1)
 
 
 @frozen(kw_only=True)

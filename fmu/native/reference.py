@@ -30,9 +30,9 @@ from ...separation.plan import Plan, plan
 from ...separation.simulate import simulate
 from ..contents.packing import write_archive
 from ..contents.references import ReferenceRun, reference_files
+from ..slaves.rheology import with_rheology
 from .film import moving
 from .ports import Model, start_of
-from .rheology import with_rheology
 
 __all__ = ["add_reference", "reference_run"]
 

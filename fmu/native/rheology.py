@@ -25,10 +25,10 @@ from ...lubrication.flow_laws.pressure_laws import Barus
 from ...numerics.roots import bracketed_root
 from ...scene.scenes import SeparationScene
 from ...separation.effects.prepared import PreparedScene
-from ...separation.effects.viscous import ViscousForce
 from ...separation.rheology.changes import PARTS
 from ...separation.rheology.film import RheologicalFilm
 from ...separation.rheology.prepared_film import PreparedFilm
+from ..slaves.rheology import is_rheological
 from .ratios import TOLERANCE, Axes, Units, ratio
 from .records import Ratio, Rheology, Scaling, Stretch
 
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-__all__ = ["FASTEST", "is_rheological", "nearest_gap", "rheological_film", "rheology_record", "scaling_of", "with_rheology"]
+__all__ = ["FASTEST", "nearest_gap", "rheological_film", "rheology_record", "scaling_of"]
 
 FASTEST = 30.0
 """Speed [m/s] at a third of the gap at the start up to whose rate of shear the tables go."""
@@ -49,31 +49,9 @@ _ONSET = 1e-7  # of a logarithm, below which it goes on as a power of the speed
 _SLOWEST = 18.0  # decades of the speed in which the onset is looked for
 _NEAREST = math.log(1e3)  # ln r/(1 - r): speeds 1e-3 below a pole
 _SOLID = 10.0  # logarithm of a viscosity over that at rest, beyond which no film is driven out
-_COSTLY = 1e-5  # error of a ratio, each of which takes 1 ms or more
+_COSTLY = 2e-5  # error of a ratio, each of which takes 1 ms or more
 _BISECTIONS = 36  # from decades of the speed to 1e-10 of it
 _LEVEL = 0.999  # of the gap at which a film that keeps its height at the rim ends
-
-
-def is_rheological(scene: SeparationScene) -> bool:
-    """Whether a film follows the pressure and the shear of its liquid, in a host at any motion."""
-    viscous, liquid = scene.effect(ViscousForce), scene.meniscus.liquid
-    if viscous is None or liquid.is_newtonian or viscous.rheology == "newtonian":
-        return False
-    return not viscous.takes_printed()
-
-
-def with_rheology(scene: SeparationScene) -> SeparationScene:
-    """Scene whose viscous force computes all of the rheology of its liquid.
-
-    Which parts of it a motion calls for is not known: in a host it may be any.
-    """
-    if not is_rheological(scene):
-        return scene
-    effects = (
-        evolve(effect, rheology="all") if isinstance(effect, ViscousForce) else effect
-        for effect in scene.effects
-    )
-    return evolve(scene, effects=tuple(effects))
 
 
 def rheological_film(prepared: PreparedScene[SeparationScene]) -> RheologicalFilm | None:
@@ -121,9 +99,7 @@ def rheology_record(prepared: PreparedFilm, gaps: tuple[float, float], start: fl
     marks = [gaps[0], *(h for h in _marks(film, gaps[0], high) if gaps[0] < h < high), high]
     fastest = FASTEST * film.shear_per_speed(_NEARER * start)
     stretches = [_stretch(prepared, ends, fastest) for ends in pairwise(marks)]
-    return Rheology(
-        scaling=scaling_of(film), viscosity=film.viscosity, stretches=tuple(stretches)
-    )
+    return Rheology(scaling=scaling_of(film), viscosity=film.viscosity, stretches=tuple(stretches))
 
 
 def _marks(film: RheologicalFilm, low: float, high: float) -> list[float]:
@@ -202,11 +178,14 @@ def _logarithm(film: RheologicalFilm, sign: float) -> Callable[[Floats, Floats],
         force, linear = film.forces(gap, sign * speed)
         return np.asarray(np.log(np.abs(force / linear)))
 
-    def of_one(gap: Floats, speed: Floats) -> Floats:
-        """The same where it is one at each ratio of speed and unit, whatever the gap."""
-        return np.broadcast_to(logarithm(gap[:, :1], speed[:, :1]), gap.shape)
+    return _of_one(logarithm) if film.has_one_variable or _is_flat_newtonian(film) else logarithm
 
-    return of_one if film.has_one_variable or _is_flat_newtonian(film) else logarithm
+
+def _of_one(
+    function: Callable[[Floats, Floats], Floats],
+) -> Callable[[Floats, Floats], Floats]:
+    """Function that is one at each ratio of speed and unit, whatever the gap."""
+    return lambda gap, speed: np.broadcast_to(function(gap[:, :1], speed[:, :1]), gap.shape)
 
 
 def _is_flat_newtonian(film: RheologicalFilm) -> bool:
@@ -298,4 +277,5 @@ def _cavity(prepared: PreparedFilm, gaps: tuple[float, float], fastest: float) -
         left, full = film.bounded_and_full(gap, speed)
         return np.asarray(np.log(left / full))
 
-    return ratio(logarithm, units, Axes(gaps, (0.0, max(highest, 3.0)), 1.0), _COSTLY)
+    function = _of_one(logarithm) if _is_flat_newtonian(film) else logarithm
+    return ratio(function, units, Axes(gaps, (0.0, max(highest, 3.0)), 1.0), _COSTLY)

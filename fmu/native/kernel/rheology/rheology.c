@@ -6,8 +6,6 @@
 
 #include "rheology.h"
 
-#include "reader.h"
-
 #include <math.h>
 
 #define DEGREE 5
@@ -151,10 +149,4 @@ const char *ck_rheological_obstacle(const ck_acting *a, double gap, double speed
                "and no pressure drives the liquid out; close more slowly, or build the FMU with "
                "RoelandsViscosity, which grows less";
     return "the film moves nearly as fast as its tables hold; move it more slowly";
-}
-
-/* Of what is read the number of coefficients must fit. */
-void ck_made_ratio(ck_reader *r, ck_ratio *made) {
-    if (made->n_nodes != made->gaps * made->speeds) r->fine = 0;
-    if (!(made->end > made->first_speed)) r->fine = 0;
 }
