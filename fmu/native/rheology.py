@@ -39,8 +39,11 @@ if TYPE_CHECKING:
 
 __all__ = ["FASTEST", "nearest_gap", "rheological_film", "rheology_record", "scaling_of"]
 
-FASTEST = 30.0
-"""Speed [m/s] at a third of the gap at the start up to whose rate of shear the tables go."""
+FASTEST = 10.0
+"""Speed [m/s] at a third of the gap at the start, up to which the tables go there.
+
+At other gaps they go to that times their units of the speed.
+"""
 
 _NEARER = 1.0 / 3.0
 _SMALLEST = 1e-13  # [m]
@@ -97,8 +100,8 @@ def rheology_record(prepared: PreparedFilm, gaps: tuple[float, float], start: fl
     film = prepared.film
     high = min(gaps[1], _LEVEL * film.shape.level)
     marks = [gaps[0], *(h for h in _marks(film, gaps[0], high) if gaps[0] < h < high), high]
-    fastest = FASTEST * film.shear_per_speed(_NEARER * start)
-    stretches = [_stretch(prepared, ends, fastest) for ends in pairwise(marks)]
+    fast = max(gaps[0], _NEARER * start)
+    stretches = [_stretch(prepared, ends, fast) for ends in pairwise(marks)]
     return Rheology(scaling=scaling_of(film), viscosity=film.viscosity, stretches=tuple(stretches))
 
 
@@ -124,22 +127,22 @@ def _changes(function: Callable[[float], float], low: float, high: float) -> boo
     return function(low) * function(high) < 0.0
 
 
-def _stretch(prepared: PreparedFilm, gaps: tuple[float, float], fastest: float) -> Stretch:
+def _stretch(prepared: PreparedFilm, gaps: tuple[float, float], fast: float) -> Stretch:
     film = prepared.film
     has_pressure = film.law.pressure_law is not None
     return Stretch(
         high=gaps[1],
-        opening=_full(film, gaps, fastest),
+        opening=_full(film, gaps, fast),
         closing=_closing(film, gaps) if has_pressure else None,
-        cavity=_cavity(prepared, gaps, fastest) if math.isfinite(film.strength) else None,
+        cavity=_cavity(prepared, gaps, fast) if math.isfinite(film.strength) else None,
     )
 
 
-def _full(film: RheologicalFilm, gaps: tuple[float, float], fastest: float) -> Ratio:
+def _full(film: RheologicalFilm, gaps: tuple[float, float], fast: float) -> Ratio:
     """Logarithm of the force over the linear one, while the film opens."""
     units = Units(lambda rows: _unit(film, rows))
     function = _logarithm(film, 1.0)
-    highest = _highest(film, fastest, gaps, _unit(film, np.array(gaps)))
+    highest = math.log(FASTEST) - float(_unit(film, np.array([fast]))[0])
     return ratio(function, units, _axes(film, function, units, gaps, highest), _rtol(film))
 
 
@@ -147,13 +150,6 @@ def _rtol(film: RheologicalFilm) -> float:
     """Error of a table: pressure and shear together take some 3 ms for each of its nodes."""
     both = film.law.pressure_law is not None and not isinstance(film.law, Newtonian)
     return _COSTLY if both else TOLERANCE
-
-
-def _highest(
-    film: RheologicalFilm, fastest: float, gaps: tuple[float, float], units: Floats
-) -> float:
-    """Highest logarithm of a speed over its unit, up to a rate of shear [1/s] at either end."""
-    return float(max(np.log([fastest / film.shear_per_speed(h) for h in gaps]) - units))
 
 
 def _unit(film: RheologicalFilm, gaps: Floats) -> Floats:
@@ -267,11 +263,11 @@ def _closes(film: RheologicalFilm, gaps: Floats, logs: Floats) -> Any:
         return np.array([not one and _closes(film, *np.atleast_1d(*pair))[0] for pair in pairs])
 
 
-def _cavity(prepared: PreparedFilm, gaps: tuple[float, float], fastest: float) -> Ratio:
+def _cavity(prepared: PreparedFilm, gaps: tuple[float, float], fast: float) -> Ratio:
     """Logarithm of the truncated force over that of the full film, from inception on."""
     film, onset = prepared.film, prepared.inception_speed(gaps)
     units = Units(lambda rows: np.log([onset(h) for h in rows.tolist()]))
-    highest = _highest(film, fastest, gaps, units.logarithm(np.array(gaps)))
+    highest = math.log(FASTEST / onset(min(max(fast, gaps[0]), gaps[1])))
 
     def logarithm(gap: Floats, speed: Floats) -> Floats:
         left, full = film.bounded_and_full(gap, speed)

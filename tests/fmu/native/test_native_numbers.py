@@ -132,7 +132,7 @@ OWN = {
     "cavities/obstacle.c": "TIED MOST_SETS MANY_SETS",
     "cavities/factor.c": "SINGULAR",
     "cavities/law.c": "CELLS_PER_COST",
-    "rheology/rheology.c": "NEAR",
+    "rheology/rheology.c": "EDGE NEAR",
     "tips/flight.c": "PI",
     "tips/impact.c": "SAME SAME_FRACTION",
     "deforming/bodies.c": "R6 MOST_RINGS",

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #define DEGREE 5
+#define EDGE 1e-9 /* of ln h: within an end of a table, on the near side of round-off */
 #define NEAR 0.5 /* of the fastest speed, from which on that is what stands against a step */
 
 /* What a ratio is at a gap and a speed: a logarithm, and its slopes by the logarithm of the speed and by
@@ -63,11 +64,23 @@ static void spline(const ck_ratio *f, double y, double x, logarithm *found, doub
     *by_y = place < 0.0 || place > rows ? 0.0 : *by_y * f->per_gap; /* beyond its gaps it stays */
 }
 
+/* Minus the logarithm of the unit of the speed at a gap, and its slope; beyond the table it goes on as a
+   power of the gap, as that of flats is. */
+static double unit_at(const ck_ratio *f, double gap, double log_gap, double *by_gap) {
+    double low = f->first_gap, high = low + (f->gaps - DEGREE) / f->per_gap, edge, found, slope;
+    if (low <= log_gap && log_gap <= high) return ck_table_at(&f->unit, gap, log_gap, by_gap);
+    edge = log_gap < low ? low + EDGE : high - EDGE;
+    found = ck_table_at(&f->unit, exp(edge), edge, &slope);
+    slope *= exp(edge);
+    *by_gap = slope / gap;
+    return found + slope * (log_gap - edge);
+}
+
 /* Logarithm of a speed over its unit, or of r/(1 - r) for a speed r of the fastest; its slopes by the
    logarithm of the speed and by the gap. nan beyond the fastest. */
 static double place_of(const ck_ratio *f, double gap, double log_gap, double log_speed,
                        double *by_speed, double *by_gap) {
-    double x = log_speed + ck_table_at(&f->unit, gap, log_gap, by_gap);
+    double x = log_speed + unit_at(f, gap, log_gap, by_gap);
     *by_speed = 1.0;
     if (!f->has_pole) return x;
     if (!(x < 0.0)) return NAN;
@@ -138,7 +151,7 @@ double ck_rheological_reach(const ck_acting *a, double gap, double speed) {
     if (!a->any || !a->rheology || speed == 0.0) return 0.0;
     f = full_ratio(stretch_at(a->rheology, gap), speed);
     /* Of a pole the unit is the fastest speed. */
-    return exp(log_of(a, speed) + ck_table_at(&f->unit, gap, log(gap), &ignored) -
+    return exp(log_of(a, speed) + unit_at(f, gap, log(gap), &ignored) -
                (f->has_pole ? 0.0 : f->end));
 }
 
