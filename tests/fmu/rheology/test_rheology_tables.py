@@ -123,7 +123,7 @@ def test_what_a_film_of_another_viscosity_is_a_function_of(scaling, liquid, monk
 def test_a_closing_film_ends_at_the_pole_of_its_law():
     """Barus' transformation: where the pressure at a constant viscosity would be 1/alpha."""
     one = film(pressure=BARUS)
-    made = rheology_record(PreparedFilm(one, (1e-6, 1e-5), 1e6), (1e-6, 1e-5), 1e-3)
+    made = rheology_record(PreparedFilm(one, (1e-6, 1e-5), 1e6), (1e-6, 1e-5), 2e-5)
     (stretch,) = made.stretches
     gap, alpha = 3e-6, BARUS.pressure_coefficient
     pole = gap**3 / (3.0 * VISCOSITY * RADIUS**2 * alpha)
