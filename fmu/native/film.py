@@ -258,8 +258,10 @@ def _tabulated(
     film: PlanFilm, rheology: RheologyOfFilm | None
 ) -> dict[type[SeparationForce], ForceLaw]:
     """Laws of a film that are tables over the gap: of a rheology that at the viscosity at rest."""
-    more = {} if rheology is None else {ViscousForce: rheology.linear_law()}
-    return {**film.laws, **more}
+    found = dict(film.laws)
+    if rheology is not None:
+        found[ViscousForce] = rheology.linear_law()
+    return found
 
 
 def _rheology(common: _Common, film: RheologyOfFilm) -> Rheology:

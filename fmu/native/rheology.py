@@ -166,7 +166,7 @@ def _unit(film: RheologicalFilm, gaps: Floats) -> Floats:
 def _linear_pressure(film: RheologicalFilm, gaps: Floats) -> Floats:
     """Pressure on the axis per speed [Pa.s/m], at the viscosity at rest."""
     plain = evolve(film, law=evolve(film.law, pressure_law=None))
-    return plain.peak_pressures(gaps, np.ones_like(gaps))
+    return np.asarray(plain.peak_pressures(gaps, np.ones_like(gaps)), dtype=np.float64)
 
 
 def _logarithm(film: RheologicalFilm, sign: float) -> Callable[[Floats, Floats], Floats]:
