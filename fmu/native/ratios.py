@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["TOLERANCE", "Axes", "Units", "ratio"]
 
-_DEGREE = 5
+_DEGREE = 5  # of the splines: cubics would take three times the nodes for 1e-6
 # Nodes in a decade of gap and speed to begin with, and how often they are doubled. Each doubling
 # takes an error by 64 where the ratio is smooth; at the kink of a power law by 8.
 _GAPS, _SPEEDS, _DOUBLINGS = 5, 8, 3

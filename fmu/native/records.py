@@ -115,7 +115,7 @@ class Law(Record):
 
 
 class Scaling(IntEnum):
-    """What a rheology is a function of, where the viscosity at rest changes."""
+    """Argument of a rheology where the viscosity at rest is another one: none, speed, stress."""
 
     NONE = 0
     SPEED = 1

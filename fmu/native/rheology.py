@@ -45,7 +45,7 @@ FASTEST = 10.0
 At other gaps they go to that times their units of the speed.
 """
 
-_NEARER = 1.0 / 3.0
+_NEARER = 1.0 / 3.0  # of the gap at the start: a mass that closes meets thinner films
 _SMALLEST = 1e-13  # [m]
 _FAR_NEARER, _NEARER_BY_TABLE = 1e-3, 0.03  # of the gap at the start
 _ONSET = 1e-7  # of a logarithm, below which it goes on as a power of the speed
@@ -65,7 +65,7 @@ def rheological_film(prepared: PreparedScene[SeparationScene]) -> RheologicalFil
 
 
 def scaling_of(film: RheologicalFilm) -> Scaling:
-    """What the ratio of a film is a function of, where its viscosity at rest is another one.
+    """Argument of the ratio of a film whose viscosity at rest is another one.
 
     A liquid that thins at a rate of shear has a ratio of the speed; one that thins at a stress or
     thickens with pressure, of speed times viscosity, as that sets stresses. A pressure that is

@@ -173,7 +173,7 @@ def compile_probe(folder):
 
 
 def probed(probe, tables, folder, points, parameters):
-    """What the program tells at gaps and speeds: a line of numbers each, as columns.
+    """Numbers of the program at gaps and speeds, a column of each.
 
     Fixed force, its slope, viscous force, its slopes, and the limit; `parameters` are viscosity,
     surface tension, tension and strength.

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#define DEGREE 5
+#define DEGREE 5 /* of the splines, as in fmu/native/ratios.py */
 #define EDGE 1e-9 /* of ln h: within an end of a table, on the near side of round-off */
 #define NEAR 0.5 /* of the fastest speed, from which on that is what stands against a step */
 
