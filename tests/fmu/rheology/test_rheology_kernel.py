@@ -98,6 +98,16 @@ def test_at_rest_and_slowly_a_film_is_newtonian(probe, tables, tmp_path):
     assert damping.tolist() == pytest.approx([rest] * 3, rel=1e-9)
 
 
+def test_beyond_its_gaps_a_film_between_flats_is_known(probe, tables, tmp_path):
+    """Its ratio is one of the rate of shear, whose unit is a power of the gap there."""
+    made, film = tables("carreau, drop")
+    points = [(1e-3 * GAP, 1e-9), (100.0 * GAP, 300.0)]
+    force = kernel(probe, made, tmp_path, points)[0]
+    expected = [film.force(*point) for point in points]
+    assert film.linear_force(*points[1]) > 1.02 * expected[1]
+    np.testing.assert_allclose(force, expected, rtol=1e-5)
+
+
 @pytest.mark.slow
 def test_beyond_its_pole_and_its_tables_a_force_is_no_number(probe, tables, tmp_path):
     made, film = tables("barus")
