@@ -274,7 +274,7 @@ class ViscousForce(SeparationForce):
         return ("viscosity", "surface_tension") if at_pressure else ("viscosity",)
 
     def proportional_to(self, scene: SeparationScene) -> str:
-        """See `SeparationForce.proportional_to`; a native FMU refuses a computed rheology."""
+        """See `SeparationForce.proportional_to`: the viscosity at rest, of a computed rheology."""
         return "viscosity"
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:

@@ -126,15 +126,21 @@ class RheologicalFilm:
 
     def bounded_forces(self, gap: Array, speed: Array) -> Array:
         """Forces [N] of films whose pressure is truncated at the strength of the liquid."""
+        return self.bounded_and_full(gap, speed)[0]
+
+    def bounded_and_full(self, gap: Array, speed: Array) -> tuple[Array, Array]:
+        """Forces [N] of films whose pressure is truncated, and of the same without that."""
         if gap.ndim > 1:  # one call has nodes of one number of panels
-            return np.array([self.bounded_forces(*one) for one in zip(gap, speed, strict=True)])
-        film, radii = self._squeezed(gap, speed), self.radii(gap)
+            pairs = [self.bounded_and_full(*one) for one in zip(gap, speed, strict=True)]
+            bounded, full = (np.array(part) for part in zip(*pairs, strict=True))
+            return bounded, full
+        film, radii, n = self._squeezed(gap, speed), self.radii(gap), self.shape.menisci
         forces = np.array(film.force, dtype=float)
         over = (speed > 0.0) & (-np.asarray(film.centre_pressure) > self.strength)
         for place in zip(*np.nonzero(over), strict=True):
             one = (film.radius[place], film.gradient[place])
             forces[place] = truncated_force(*one, float(radii[place]), self.strength)
-        return np.asarray(self.shape.menisci * forces)
+        return n * forces, n * np.asarray(film.force)
 
     def peak_pressures(self, gap: Array, speed: Array) -> Array:
         """Largest pressure differences from ambient [Pa] of full films."""
