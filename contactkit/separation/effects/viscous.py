@@ -622,6 +622,18 @@ class TensionLimit(FilmLimit):
         viscosity, rtol = prepared.liquid.viscosity, prepared.accuracy.film_rtol
         return FaceCavity(film, grid, viscosity, self.tension, self.cavity_drop, rtol)
 
+    def validity(
+        self, plan: PlanView, path: Sequence[tuple[float, float]]
+    ) -> tuple[ValidityNumber, ...]:
+        """See `SeparationEffect.validity`: whether the rim of the liquid is resolved on a face."""
+        if not on_face(plan.scene):
+            return ()
+        from ..face.cavity import FaceCavity
+        from ..face.rim import rim_numbers
+
+        cavity = plan.film.cavity
+        return rim_numbers(cavity, path) if isinstance(cavity, FaceCavity) else ()
+
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """See `FilmLimit.prepare`."""
         if prepared.rheology is not None and prepared.rheology.film is not None:

@@ -146,7 +146,8 @@ def _made(
         from .face import resolved
 
         low = _reach(loading)[0]
-        some = path or [(low, _FASTEST / film.shear_per_speed(low))]
+        moving = [(gap, speed) for gap, speed in path or () if speed != 0.0]
+        some = moving or [(low, _FASTEST / film.shear_per_speed(low))]
         film = resolved(film, some, prepared.accuracy.film_rtol)
     fastest = max((film.shear_per_speed(h) * abs(v) for h, v in path or ()), default=0.0)
     if isinstance(loading, ImposedForce):

@@ -10,7 +10,8 @@ from attrs import field, frozen
 __all__ = ["Correction"]
 
 _PER_DECADE = 2
-"""Points in a decade of gap and of rate: cubics through them leave ... of a correction of 3 %."""
+"""Points in a decade of gap and of rate: cubics through them leave 2e-4 of the force of Eyring's
+law with Barus' on a square, 1e-4 of others; one in a decade leaves 4e-3."""
 
 
 @frozen(eq=False)

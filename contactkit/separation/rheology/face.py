@@ -9,14 +9,14 @@ none, whatever its slip and its viscosity over pressure.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import evolve, field, frozen
 
-from ...errors import InfeasibleError
+from ...errors import DescriptionError, InfeasibleError
 from ...lubrication.flow_laws.base import FlowLaw
 from ...lubrication.flow_laws.closed_forms import slip_disc_factor
 from ...lubrication.flow_laws.newtonian import Newtonian
@@ -127,7 +127,7 @@ class FaceRheology:
         return float(self.forces(np.array([gap]), np.array([speed]))[0][0]) if speed else 0.0
 
     def forces(self, gap: Array, speed: Array) -> tuple[Array, Array]:
-        """Forces [N] at gaps [m] and speeds [m/s] that are not 0; also those at the viscosity at rest.
+        """Forces [N] at gaps [m] and speeds [m/s] but 0, and those at the viscosity at rest.
 
         -inf where no pressure closes the gap so fast.
         """
@@ -190,7 +190,8 @@ class FaceRheology:
         grid = self._grid(cells)
         key = (cells, 1.0, (0.0, 0.0)) if grid.is_even else (cells, gap, slip)
         if key not in self._flows:
-            self._flows[key] = unit_flow(grid.face, grid.relief + key[1], key[2])
+            made = unit_flow(grid.face, grid.relief + key[1], key[2])
+            self._flows[key] = made if cells <= _MOST[1] else made._replace(state=None)
         made = self._flows[key]
         return made.even(gap, slip) if grid.is_even else made
 
@@ -270,46 +271,63 @@ def resolved(film: FaceRheology, path: Sequence[tuple[float, float]], rtol: floa
     film : FaceRheology
         The film.
     path : sequence of (float, float)
-        Gaps [m] and speeds [m/s] that are expected.
+        Gaps [m] and speeds [m/s], not 0, that are expected.
     rtol : float
         Error of the force over the Newtonian one at which a grid is fine enough [-]; what is left
         on the finest grids is the `error` of the film.
     """
     if film.is_linear and film.has_closed_slip:
         return film
-    gap, speed = _farthest(film, path)
+    places = _tried(film, path)
 
-    def of_flux(cells: int) -> float:
-        slip = 1.0 if film.has_closed_slip or not film.slips else film.slip_ratio(gap, cells)
-        return math.log(slip * film.estimate(gap, speed, cells))
+    def of_flux(cells: int) -> Array:
+        slips = film.slips and not film.has_closed_slip
+        slip = [film.slip_ratio(gap, cells) if slips else 1.0 for gap, _ in places]
+        return np.log([film.estimate(*one, cells) for one in places]) + np.log(slip)
 
-    def of_correction(cells: int) -> float:
+    def of_correction(cells: int) -> Array:
         if isinstance(film.law, Newtonian):
-            return 0.0
-        return film.solved_correction(gap, speed, cells)
+            return np.zeros(1)
+        return np.array([film.solved_correction(*one, cells) for one in places])
 
     cells, errors = [], []
     for value, few, most in zip((of_flux, of_correction), _FEWEST, _MOST, strict=True):
-        before, count = value(few // 2), few
-        while True:
-            after = value(count)
-            left = _LEFT * abs(after - before)
-            if left <= rtol or count >= most:
-                break
-            before, count = after, 2 * count
+        count, error = _enough_cells(value, few, most, rtol)
         cells.append(count)
-        errors.append(math.inf if math.isnan(left) else left)
-    return evolve(film, cells=(cells[0], cells[1]), error=sum(errors))
+        errors.append(error)
+    made = evolve(film, cells=(cells[0], cells[1]), error=sum(errors))
+    made._flows.update(film._flows)
+    return made
 
 
-def _farthest(film: FaceRheology, path: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """Gap [m] and speed [m/s] at which the force is least proportional to the speed."""
-    moving = [(gap, speed) for gap, speed in path if speed != 0.0]
+def _enough_cells(
+    value: Callable[[int], Array], few: int, most: int, rtol: float
+) -> tuple[int, float]:
+    """Cells of which logarithms have errors below a tolerance, or the most; and the largest."""
+    try:
+        before = value(few // 2)
+    except DescriptionError:  # a hole or a recess is smaller than such a cell
+        before = np.full(1, math.nan)
+    while True:
+        after = value(few)
+        error = _LEFT * float(np.abs(after - before).max())
+        if error <= rtol or few >= most:
+            return few, math.inf if math.isnan(error) else error
+        before, few = after, 2 * few
+
+
+def _tried(film: FaceRheology, path: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Gaps [m] and speeds [m/s] at which a grid is tried.
+
+    That at which the force is least proportional to the speed; on a face that is not even also
+    those of the smallest and the largest gap, which share out the flux in other ways.
+    """
+    ends = [] if film.full.shape.is_even else [min(path), max(path)]
     if film.is_linear:
-        return min(moving)
-    gap, speed = np.array(moving).T
+        return ends
+    gap, speed = np.array(path).T
     near, far = (film.bounded_forces(gap, one * speed) for one in (1.0, _STEP))
     with np.errstate(invalid="ignore"):
         exponents = np.log(far / near) / math.log(_STEP)
     place = int(np.argmax(np.where(np.isfinite(exponents), np.abs(exponents - 1.0), -1.0)))
-    return moving[place]
+    return [path[place], *ends]
