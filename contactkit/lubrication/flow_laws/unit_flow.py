@@ -53,8 +53,8 @@ if TYPE_CHECKING:
 
 __all__ = ["UnitFlow", "solution_ratio", "tensions", "unit_flow"]
 
-_RATES, _DECADES = 40, 6
-"""Groups of cells in a decade of the rate of shear, which leave 2e-5 of a power law, and decades
+_RATES, _DECADES = 20, 6
+"""Groups of cells in a decade of the rate of shear, which leave 8e-5 of a power law, and decades
 below the fastest in which they are told apart."""
 _GAPS = 20  # groups in a decade of the gap
 _PRESSURES = 200  # groups of cells of nearly the same pressure: they leave 1e-5 of Barus' law

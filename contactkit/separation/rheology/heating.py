@@ -121,10 +121,7 @@ def heating_number(heated: HeatedFilm, path: Sequence[tuple[float, float]]) -> V
     if rise is not None:
         detail = f"the film heats itself by {rise:.2g} K at most"
         if liquid.heat_capacity is None:
-            detail += (
-                ", with walls that take up all heat at once; liquid.heat_capacity bounds it by "
-            )
-            detail += "the heat of the liquid, too"
+            detail += ", where walls take up all heat; liquid.heat_capacity adds a second bound"
         if slope is None:
             detail += "; the viscosity is a constant, which no temperature changes"
     return ValidityNumber(
