@@ -1,4 +1,4 @@
-"""What the solution of a film on a grid changes of its estimate, over gap and rate of shear."""
+"""Correction of an estimate by solutions on a grid, over gap and rate of shear."""
 
 from __future__ import annotations
 
