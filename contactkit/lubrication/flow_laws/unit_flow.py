@@ -15,8 +15,8 @@ square, 4:1 rectangle, vented ring, disc with four vents, power laws of n = 0.3 
 viscosity over pressure beside a law of exponent n turns the pressure p_0 of that film into the one
 whose integral of dp/M^n is p_0: exact for a Newtonian liquid, and for a power law of Barus.
 
-A solution of the law itself (`on_grid`) over the same sum on the sides of its cells tells what is
-left, with little of the error of the grid: where the volume fixes the flux both are equal on any.
+A solution of the law itself (`on_grid`) over the same sum on the sides of its cells corrects it, with
+little of the error of the grid: where the volume fixes the flux both are equal on any.
 
 =======  ==============================================  =====
 symbol   quantity                                        unit
@@ -55,7 +55,7 @@ __all__ = ["UnitFlow", "solution_ratio", "tensions", "unit_flow"]
 
 _RATES, _DECADES = 20, 6
 """Groups of cells in a decade of the rate of shear, which leave 8e-5 of a power law, and decades
-below the fastest in which they are told apart."""
+below the fastest that have groups of their own."""
 _GAPS = 20  # groups in a decade of the gap
 _PRESSURES = 200  # groups of cells of nearly the same pressure: they leave 1e-5 of Barus' law
 

@@ -320,7 +320,7 @@ def _tried(film: FaceRheology, path: Sequence[tuple[float, float]]) -> list[tupl
     """Gaps [m] and speeds [m/s] at which a grid is tried.
 
     That at which the force is least proportional to the speed; on a face that is not even also
-    those of the smallest and the largest gap, which share out the flux in other ways.
+    those of the smallest and the largest gap, where the flux takes other ways.
     """
     ends = [] if film.full.shape.is_even else [min(path), max(path)]
     if film.is_linear:
