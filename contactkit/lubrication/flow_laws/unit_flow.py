@@ -15,8 +15,8 @@ square, 4:1 rectangle, vented ring, disc with four vents, power laws of n = 0.3 
 viscosity over pressure beside a law of exponent n turns the pressure p_0 of that film into the one
 whose integral of dp/M^n is p_0: exact for a Newtonian liquid, and for a power law of Barus.
 
-A solution of the law itself (`on_grid`) over the same sum on the sides of its cells corrects it, with
-little of the error of the grid: where the volume fixes the flux both are equal on any.
+A solution of the law itself (`on_grid`) over the same sum on the sides of its cells corrects it,
+with little of the error of the grid: where the volume fixes the flux both are equal on any.
 
 =======  ==============================================  =====
 symbol   quantity                                        unit
