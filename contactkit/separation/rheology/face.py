@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
 __all__ = ["FaceRheology", "resolved"]
 
+_Key = tuple[int, float, tuple[float, float]]  # cells, gap [m], slip lengths [m]
+
 _FEWEST, _MOST = (64, 32), (256, 128)
 """Cells along the longer side for the flux, and for the correction, of which each solution is ten
 of the flux: 0.05 s with 64 cells, 0.4 s with 128, Carreau's law twice as long."""
@@ -73,9 +75,8 @@ class FaceRheology:
     strength: float = math.inf
     cells: tuple[int, int] = _FEWEST
     error: float = 0.0
-    _flows: dict[tuple[int, float, tuple[float, float]], UnitFlow] = field(
-        factory=dict, init=False, repr=False
-    )
+    _flows: dict[_Key, UnitFlow] = field(factory=dict, init=False, repr=False)
+    _last: dict[_Key, UnitFlow] = field(factory=dict, init=False, repr=False)
     _grids: dict[int, FaceGrid] = field(factory=dict, init=False, repr=False)
 
     @property
@@ -174,9 +175,10 @@ class FaceRheology:
         """Logarithm of the force over its estimate without pressure; inf where there is none."""
         if isinstance(self.law, Newtonian):
             return math.log(self.estimate(gap, speed, cells))
-        flow, grid = self._flow(cells, gap, self.law.slip_length), self._grid(cells)
+        height = self._grid(cells).relief + gap
+        flow = self._solved(cells, gap, self.law.slip_length)
         try:
-            return math.log(solution_ratio(flow, self.law, grid.relief + gap, speed))
+            return math.log(solution_ratio(flow, self.law, height, speed))
         except InfeasibleError:
             return math.inf
 
@@ -186,14 +188,24 @@ class FaceRheology:
         return self._grids[cells]
 
     def _flow(self, cells: int, gap: float, slip: tuple[float, float]) -> UnitFlow:
-        """Newtonian film at a gap [m] and slip lengths [m]; of an even face solved once."""
-        grid = self._grid(cells)
-        key = (cells, 1.0, (0.0, 0.0)) if grid.is_even else (cells, gap, slip)
+        """Newtonian film at a gap [m] and slip lengths [m], in groups of cells."""
+        key = self._key(cells, gap, slip)
         if key not in self._flows:
-            made = unit_flow(grid.face, grid.relief + key[1], key[2])
-            self._flows[key] = made if cells <= _MOST[1] else made._replace(state=None)
+            self._flows[key] = self._solved(cells, gap, slip)._replace(state=None)
         made = self._flows[key]
-        return made.even(gap, slip) if grid.is_even else made
+        return made.even(gap, slip) if self.full.shape.is_even else made
+
+    def _solved(self, cells: int, gap: float, slip: tuple[float, float]) -> UnitFlow:
+        """The same with its pressure in each cell; the last one that was asked for is kept."""
+        key, grid = self._key(cells, gap, slip), self._grid(cells)
+        if key not in self._last:
+            self._last.clear()
+            self._last[key] = unit_flow(grid.face, grid.relief + key[1], key[2])
+        return self._last[key]
+
+    def _key(self, cells: int, gap: float, slip: tuple[float, float]) -> _Key:
+        """What decides a Newtonian film; an even face is solved once, at 1 m without slip."""
+        return (cells, 1.0, (0.0, 0.0)) if self.full.shape.is_even else (cells, gap, slip)
 
     def _linear_forces(self, gap: Array, speed: Array) -> Array:
         return np.asarray(np.vectorize(self.linear_force, otypes=[float])(gap, speed))

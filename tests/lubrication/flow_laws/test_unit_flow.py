@@ -16,7 +16,9 @@ from contactkit.lubrication.flow_laws.newtonian import Newtonian
 from contactkit.lubrication.flow_laws.on_grid import solve_on_grid
 from contactkit.lubrication.flow_laws.power_law import PowerLaw
 from contactkit.lubrication.flow_laws.pressure_laws import Barus, Roelands
+from contactkit.lubrication.flow_laws.squeeze import squeeze_force
 from contactkit.lubrication.flow_laws.unit_flow import solution_ratio, tensions, unit_flow
+from contactkit.lubrication.flow_laws.walls import Flats
 
 R, GAP, SPEED = 3e-3, 1e-5, 1e-3
 OIL = Newtonian(viscosity=0.1)
@@ -102,6 +104,18 @@ def test_barus_between_discs_and_its_fastest_closing():
     fastest = GAP**3 / (2e-7 * 3.0 * 0.1 * R**2)
     assert math.isfinite(estimate(face, law, gap, -0.98 * fastest))
     assert estimate(face, law, gap, -1.02 * fastest) == -math.inf
+
+
+@pytest.mark.parametrize("speed", [SPEED, -SPEED], ids=["opens", "closes"])
+def test_barus_beside_a_power_law_between_discs(speed):
+    """The integral of dp/M^n is the pressure of the power law alone, nearly that of a parabola."""
+    face = reynolds.rasterise(ck.Disc(radius=R), 64)
+    law = PowerLaw(consistency=1.0, exponent=0.5, pressure_law=Barus(coefficient=2e-6))
+    expected = squeeze_force(law, Flats(), GAP, speed, R)
+    plain = squeeze_force(evolve(law, pressure_law=None), Flats(), GAP, speed, R)
+    assert abs(expected / plain - 1.0) > 0.02
+    found = estimate(face, law, np.full(face.shape, GAP), speed)
+    assert found == pytest.approx(expected, rel=5e-3)
 
 
 def test_the_factor_of_a_pressure_to_a_power():

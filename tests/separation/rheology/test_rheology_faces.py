@@ -162,14 +162,14 @@ def test_the_middle_of_a_long_rectangle_is_a_slot():
 @pytest.mark.parametrize("tilt", [0.0, 1e-3])
 def test_a_square_is_that_of_a_fine_grid(tilt):
     face = attrs.evolve(SQUARE, tilt=(tilt, 0.0))
-    plan = plan_of(face, shear_viscosity=EYRING)
+    plan = plan_of(face, DRAFT, shear_viscosity=EYRING)
     film, forces = film_of(plan), []
-    for cells in (48, 96):
+    for cells in (32, 64):
         grid = film._grid(cells)
         args = grid.face, film.law, grid.relief + 2e-6, 1e-3
         forces.append(on_grid.solve_on_grid(*args, rtol=1e-5).force)
     expected = forces[1] + (forces[1] - forces[0]) / 3.0
-    assert force(plan, 2e-6) == pytest.approx(expected, rel=1.5e-3)
+    assert force(plan, 2e-6) == pytest.approx(expected, rel=4e-3)
 
 
 # Limits, numbers, cost -------------------------------------------------------------------------
@@ -218,6 +218,18 @@ def test_errors_of_grid_and_table_are_numbers_of_a_run(monkeypatch):
     assert abs(plan.force(2e-6, 1e-3) / fine - 1.0) < 2.0 * grid.value
 
 
+@pytest.mark.slow
+def test_corrections_between_their_points_open_and_close():
+    """Of Eyring's law with Barus', whose forces differ by 4 % both ways."""
+    both = {"shear_viscosity": EYRING, "pressure_viscosity": BARUS}
+    film = film_of(plan_of(SQUARE, DRAFT, SHAKEN, **both))
+    forces = []
+    for speed in (1e-3, -1e-3):
+        forces.append(film.force(3.7e-6, speed))
+        assert forces[-1] == pytest.approx(film.solved_force(3.7e-6, speed), rel=1e-3)
+    assert -forces[1] > 1.03 * forces[0]
+
+
 def test_what_a_face_leaves_out_is_stated_for_that_face():
     """A strip five times as long as wide has less pressure than a disc of its area."""
     face = ck.Flat(planform=ck.Rectangle(length=2 * RIM, width=0.4 * RIM))
@@ -237,7 +249,7 @@ def test_points_of_a_correction_are_evaluated_once():
         return math.log(gap) * math.log(rate) ** 3
 
     made = Correction(cubic)
-    for rate in (20.0, 25.0, 30.0):
+    for rate in (25.0, 28.0, 30.0):
         expected = math.log(2e-6) * math.log(rate) ** 3
         assert made(2e-6, rate) == pytest.approx(expected, rel=1e-12)
     assert len(asked) == len(set(asked)) == 16
