@@ -12,8 +12,8 @@ v u(x, y), gives
 
 which is exact where the volume alone fixes the flux (disc, sphere, slot), and else 0.3 to 3 % high:
 square, 4:1 rectangle, vented ring, disc with four vents, power laws of n = 0.3 to 1.5, Eyring. A
-viscosity over pressure beside a law of exponent n turns the pressure p_0 of that film, taken for as
-uneven as the Newtonian one, into that whose integral of dp/M^n is p_0: exact for a Newtonian liquid.
+viscosity over pressure beside a law of exponent n turns the pressure p_0 of that film, taken for a
+multiple of the Newtonian one, into that whose integral of dp/M^n is p_0: exact for a Newtonian law.
 
 A solution of the law itself (`on_grid`) over the same sum on the sides of its cells corrects it,
 with little of the error of the grid: where the volume fixes the flux both are equal on any.

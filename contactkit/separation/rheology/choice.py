@@ -141,22 +141,23 @@ def _made(
     path: list[tuple[float, float]] | None,
 ) -> PreparedFilm:
     """Film with tables over the motion that is expected, and over more where it is not imposed."""
-    loading = prepared.scene.loading
-    if not isinstance(film, RheologicalFilm):
-        from .face import resolved
-
-        low = _reach(loading)[0]
-        moving = [(gap, speed) for gap, speed in path or () if speed != 0.0]
-        some = moving or [(low, _FASTEST / film.shear_per_speed(low))]
-        film = resolved(film, some, prepared.accuracy.film_rtol)
+    loading, reach = prepared.scene.loading, _reach(prepared.scene.loading)
+    # On a face an estimate: a search goes to any speed, and solves nothing.
+    force = film.force if isinstance(film, RheologicalFilm) else film.bounded_force
     fastest = max((film.shear_per_speed(h) * abs(v) for h, v in path or ()), default=0.0)
     if isinstance(loading, ImposedForce):
         if loading.force > 0.0:  # a liquid that thins opens faster
             for gap in (loading.initial_gap, loading.final_gap):
-                speed = balance_speed(partial(film.force, gap), loading.force)
+                speed = balance_speed(partial(force, gap), loading.force)
                 fastest = max(fastest, film.shear_per_speed(gap) * speed)
         fastest = _FASTER * (fastest or _FASTEST)
-    return PreparedFilm(film, _reach(loading), fastest * _EDGE)
+    if not isinstance(film, RheologicalFilm):
+        from .face import resolved
+
+        moving = [(gap, speed) for gap, speed in path or () if speed != 0.0]
+        some = moving or [(reach[0], _FASTEST / film.shear_per_speed(reach[0]))]
+        film = resolved(film, some, prepared.accuracy.film_rtol, fastest)
+    return PreparedFilm(film, reach, fastest * _EDGE)
 
 
 def _computed(

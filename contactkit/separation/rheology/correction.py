@@ -7,6 +7,8 @@ from collections.abc import Callable
 
 from attrs import field, frozen
 
+from ...errors import ConvergenceError
+
 __all__ = ["Correction"]
 
 _GAPS, _RATES = 2, 3
@@ -25,7 +27,8 @@ class Correction:
     Parameters
     ----------
     exact : callable
-        Value at a gap [m] and a rate [1/s], positive; nan where there is none.
+        Value at a gap [m] and a rate [1/s], positive; nan where there is none. Where it does not
+        settle, as at rates that no motion has, that of the next lower rate is taken.
     gap : float, optional
         Gap [m] that stands for all, of a function of the rate alone.
 
@@ -52,7 +55,10 @@ class Correction:
         """Value at a point of the lattice."""
         if (i, j) not in self._known:
             gap = 10.0 ** (i / _GAPS) if self.gap is None else self.gap
-            self._known[i, j] = self.exact(gap, 10.0 ** (j / _RATES))
+            try:
+                self._known[i, j] = self.exact(gap, 10.0 ** (j / _RATES))
+            except ConvergenceError:
+                self._known[i, j] = self._at(i, j - 1)
         return self._known[i, j]
 
 

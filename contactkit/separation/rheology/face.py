@@ -66,6 +66,8 @@ class FaceRheology:
         Cells along the longer side of the grid for the flux, and of that for the correction.
     error : float
         Error of the force over the Newtonian one [-], half the change from half the cells.
+    fastest : float
+        Rate of shear [1/s] beyond which the correction stays, for searches that go to any speed.
     """
 
     full: FaceFilm
@@ -75,6 +77,7 @@ class FaceRheology:
     strength: float = math.inf
     cells: tuple[int, int] = _FEWEST
     error: float = 0.0
+    fastest: float = math.inf
     _flows: dict[_Key, UnitFlow] = field(factory=dict, init=False, repr=False)
     _last: dict[_Key, UnitFlow] = field(factory=dict, init=False, repr=False)
     _grids: dict[int, FaceGrid] = field(factory=dict, init=False, repr=False)
@@ -240,9 +243,12 @@ class FaceRheology:
             h, v = float(gap[place]), float(speed[place])
             # Without a viscosity over pressure opening and closing are alike.
             sign = 1.0 if self.law.pressure_law is None else math.copysign(1.0, v)
-            value = self._lattices[sign](h, abs(v) * self.shear_per_speed(h))
+            rate = abs(v) * self.shear_per_speed(h)
+            value = self._lattices[sign](h, min(rate, self.fastest))
             if math.isfinite(value) and math.isfinite(whole[place]):
                 whole[place] *= math.exp(value)
+            elif rate > self.fastest:
+                whole[place] = math.inf
             else:  # it is near the fastest closing, or a point of the lattice beside it beyond
                 solved = self.solved_correction(h, v, self.cells[1])
                 whole[place] = shear[place] * math.exp(solved)
@@ -275,7 +281,9 @@ def _differ(whole: Array, shear: Array) -> Any:
     return logarithms >= _SAME
 
 
-def resolved(film: FaceRheology, path: Sequence[tuple[float, float]], rtol: float) -> FaceRheology:
+def resolved(
+    film: FaceRheology, path: Sequence[tuple[float, float]], rtol: float, fastest: float
+) -> FaceRheology:
     """Film on grids that are fine enough where the liquid is farthest from Newtonian.
 
     Parameters
@@ -287,6 +295,8 @@ def resolved(film: FaceRheology, path: Sequence[tuple[float, float]], rtol: floa
     rtol : float
         Error of the force over the Newtonian one at which a grid is fine enough [-]; what is left
         on the finest grids is the `error` of the film.
+    fastest : float
+        Rate of shear [1/s] up to which the correction is solved for.
     """
     if film.is_linear and film.has_closed_slip:
         return film
@@ -307,7 +317,7 @@ def resolved(film: FaceRheology, path: Sequence[tuple[float, float]], rtol: floa
         count, error = _enough_cells(value, few, most, rtol)
         cells.append(count)
         errors.append(error)
-    made = evolve(film, cells=(cells[0], cells[1]), error=sum(errors))
+    made = evolve(film, cells=(cells[0], cells[1]), error=sum(errors), fastest=fastest)
     made._flows.update(film._flows)
     return made
 
