@@ -199,7 +199,7 @@ class FaceRheology:
         return made.even(gap, slip) if self.full.shape.is_even else made
 
     def _solved(self, cells: int, gap: float, slip: tuple[float, float]) -> UnitFlow:
-        """The same with its pressure in each cell; the last one that was asked for is kept."""
+        """The same with its pressure in each cell; the last one is kept."""
         key, grid = self._key(cells, gap, slip), self._grid(cells)
         if key not in self._last:
             self._last.clear()

@@ -220,7 +220,7 @@ def test_errors_of_grid_and_table_are_numbers_of_a_run(monkeypatch):
 
 @pytest.mark.slow
 def test_corrections_between_their_points_open_and_close():
-    """Of Eyring's law with Barus', whose forces differ by 4 % both ways."""
+    """Of Eyring's law with Barus', whose forces differ by 4 % in both directions."""
     both = {"shear_viscosity": EYRING, "pressure_viscosity": BARUS}
     film = film_of(plan_of(SQUARE, DRAFT, SHAKEN, **both))
     forces = []
