@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..effects.base import Limiter
+    from .face import FaceRheology
     from .film import RheologicalFilm
 
     Array = NDArray[np.floating[Any]]
@@ -35,7 +36,7 @@ class PreparedFilm:
 
     Parameters
     ----------
-    film : RheologicalFilm
+    film : RheologicalFilm or FaceRheology
         The film.
     gaps : (float, float)
         Smallest and largest gap of its tables [m].
@@ -43,7 +44,7 @@ class PreparedFilm:
         Fastest shear at a wall in its tables [1/s].
     """
 
-    film: RheologicalFilm
+    film: RheologicalFilm | FaceRheology
     gaps: tuple[float, float]
     fastest: float
     _tables: dict[tuple[str, int], Any] = field(factory=dict, init=False, repr=False)
