@@ -53,6 +53,9 @@ def quantity(name: str, given: ArrayLike | str, unit: str) -> Array:
     >>> quantity("load_curve(loads)", ["5 mN", 0.01], "N").tolist()
     [0.005, 0.01]
     """
+    if np.ma.is_masked(given):
+        cure = "leave these out, such as by x[~x.mask]"
+        raise DescriptionError(name, "masked ones", "be numbers without a mask", hint=cure)
     if isinstance(given, str):
         return np.asarray(parse_quantity(given, unit, name))
     if isinstance(given, list | tuple) and any(isinstance(one, str) for one in given):

@@ -21,6 +21,7 @@ __all__ = [
     "GPa",
     "MPa",
     "Unit",
+    "Scale",
     "bar",
     "celsius",
     "cSt",
@@ -31,7 +32,9 @@ __all__ = [
     "mm",
     "ms",
     "nm",
+    "parse_difference",
     "parse_quantity",
+    "parse_scale",
     "parse_unit",
     "pm",
     "quantity_pattern",
@@ -104,6 +107,11 @@ _SYMBOLS: dict[str, tuple[float, dict[str, int], bool]] = {
     "1": (1.0, {}, False),
     "%": (1e-2, {}, False),
 }
+
+
+# Powers as word processors write them, such as mm² and m³.
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+_RAISED_OF = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
 class Unit(NamedTuple):
@@ -201,8 +209,33 @@ def _symbol(text: str) -> tuple[float, dict[str, int]] | None:
     return None
 
 
+# Units that are not taken, as those that are.
+_ELSEWHERE = {
+    "micron": "1 um",
+    "in": "25.4 mm",
+    "inch": "25.4 mm",
+    "mil": "25.4 um",
+    "dyn": "10 uN",
+    "kgf": "9.80665 N",
+    "lbf": "4.44822 N",
+    "daN": "10 N",
+    "hPa": "1 mbar",
+    "atm": "101325 Pa",
+    "Torr": "133.322 Pa",
+    "mmHg": "133.322 Pa",
+    "ksi": "6.89476 MPa",
+    "erg": "100 nJ",
+    "eV": "1.602177e-19 J",
+    "sec": "1 s",
+}
+
+
 def _spelt(text: str) -> str:
-    """Known symbols that differ in their capitals only, as a question; else some examples."""
+    """Symbols that differ in their capitals only, or the same in a known unit; else examples."""
+    if text in _ELSEWHERE:
+        return f"1 {text} is {_ELSEWHERE[text]}"
+    if "(" in text:
+        return "write it without brackets, such as W/m/K"
     known = (
         p + s for s, (_, _, takes) in _SYMBOLS.items() for p in (_PREFIXES if takes else ("",))
     )
@@ -240,10 +273,10 @@ def parse_unit(text: str) -> Unit:
     if len(text) > _LONGEST:
         raise DescriptionError("unit", text, f"have at most {_LONGEST} letters")
     factor, dimension = 1.0, dict[str, int]()
-    first, *rest = re.split(r"([./*·⋅])", text)
+    # A blank is a product too: without it "m s-1" would be one per millisecond.
+    first, *rest = re.split(r"(\s*[./*·⋅]\s*|\s+)", text.strip().translate(_RAISED))
     for sign, part in [("", first), *zip(rest[::2], rest[1::2], strict=True)]:
-        part = part.strip()
-        match = re.fullmatch(r"(1|[^\d^-]+)(?:\^?(-?\d{1,9}))?", part.replace(" ", ""))
+        match = re.fullmatch(r"(1|[^\d^-]+)(?:\^?(-?\d{1,9}))?", part)
         found = _symbol(match[1]) if match else None
         if match is None or found is None:
             raise DescriptionError(
@@ -252,7 +285,7 @@ def parse_unit(text: str) -> Unit:
                 f"be made of known symbols ({part!r} is not one)",
                 hint=_spelt(match[1] if match else part),
             )
-        power = int(match[2] or 1) * (-1 if sign == "/" else 1)
+        power = int(match[2] or 1) * (-1 if "/" in sign else 1)
         if abs(power) > _LARGEST_POWER:
             raise DescriptionError(
                 "unit", text, f"have powers of at most {_LARGEST_POWER} ({part!r} is higher)"
@@ -261,6 +294,42 @@ def parse_unit(text: str) -> Unit:
         for base, exponent in found[1].items():
             dimension[base] = dimension.get(base, 0) + power * exponent
     return Unit(factor, MappingProxyType({b: e for b, e in dimension.items() if e}))
+
+
+class Scale(NamedTuple):
+    """A scale of readings: its factor and its zero in SI units, and its dimension."""
+
+    factor: float
+    zero: float
+    dimension: Mapping[str, int]
+
+
+def parse_scale(text: str) -> Scale:
+    """Read the unit of a column of readings: as `parse_unit`, or degrees Celsius.
+
+    Examples
+    --------
+    >>> parse_scale("degC")[:2], parse_scale("mN")[:2]
+    ((1.0, 273.15), (0.001, 0.0))
+    """
+    if text in _CELSIUS:
+        return Scale(1.0, _ZERO_CELSIUS, parse_unit("K").dimension)
+    unit = parse_unit(text)
+    return Scale(unit.factor, 0.0, unit.dimension)
+
+
+def parse_difference(value: object, unit: str, field: str = "value") -> float:
+    """As `parse_quantity`, of a difference: one of temperatures is in K, whatever the scale.
+
+    Raises
+    ------
+    DescriptionError
+        As `parse_quantity`, and for degrees Celsius.
+    """
+    if unit == "K" and isinstance(value, str) and value.strip().endswith(_CELSIUS):
+        cure = "it is a difference of temperatures, such as '0.5 K'"
+        raise DescriptionError(field, value, "be in K", unit=unit, hint=cure)
+    return parse_quantity(value, unit, field)
 
 
 def _scaled(number: str, factor: float) -> float:
@@ -338,8 +407,8 @@ def parse_quantity(value: object, unit: str, field: str = "value") -> float:
 
 
 _NUMBER = r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|inf)"
-_FACTOR = r" *(?:1|[^\d\s./*·⋅^-]+)(?:\^?-?\d+)? *"
-_PRODUCT = rf"{_FACTOR}(?:[./*·⋅]{_FACTOR})+"
+_FACTOR = r"(?:1|[^\d\s./*·⋅^⁰¹²³⁴⁵⁶⁷⁸⁹⁻-]+)(?:\^?-?\d+|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)?"
+_PRODUCT = rf"{_FACTOR}(?:(?:\s*[./*·⋅]\s*|\s+){_FACTOR})+"
 
 
 def quantity_pattern(unit: str) -> str:
@@ -364,7 +433,8 @@ def quantity_pattern(unit: str) -> str:
     known: dict[tuple[bool, str], list[str]] = {}
     for symbol, (_, dimension, takes) in _SYMBOLS.items():
         if power := _power(dimension, wanted):
-            exponent = "" if power == 1 else rf"\^?{power}"
+            raised = str(power).translate(_RAISED_OF)
+            exponent = "" if power == 1 else rf"(?:\^?{power}|{raised})"
             known.setdefault((takes, exponent), []).append(re.escape(symbol))
     prefix = f"[{''.join(_PREFIXES)}]?"
     single = [
@@ -373,7 +443,8 @@ def quantity_pattern(unit: str) -> str:
     ]
     single += _CELSIUS if unit == "K" else ()
     units = "|".join((*single, _PRODUCT))
-    return rf"^\s*{_NUMBER}\s*(?:{units}){'' if wanted else '?'}\s*$"
+    # No part of a number begins a unit: "1e-3 um" is not 1 times e-3 um.
+    return rf"^\s*{_NUMBER}(?![\d.,]|[eE][-+]?\d)\s*(?:{units}){'' if wanted else '?'}\s*$"
 
 
 def _power(dimension: Mapping[str, int], wanted: Mapping[str, int]) -> int:

@@ -298,6 +298,7 @@ def pull_off_curve(
     Examples
     --------
     >>> import math
+    >>> import numpy as np
     >>> import contactkit as ck
     >>> rubber = ck.Material(young_modulus=1e6, poisson_ratio=0.5)
     >>> law = ck.ExponentialAttraction(work_of_adhesion=0.05, range=0.5e-6)
@@ -310,7 +311,7 @@ def pull_off_curve(
     ...     effects=(ck.HalfSpace(), ck.Adhesion(law=law)),
     ... )
     >>> plan = ck.plan(scene, ck.Accuracy(grid=24, rtol=1e-6))
-    >>> curve = ck.pull_off_curve(plan, [-6e-6, -2e-6, -1.5e-6, -1e-6, -0.5e-6, 0.0])
+    >>> curve = ck.pull_off_curve(plan, [-6e-6, -3e-6, *np.linspace(-2e-6, 0.0, 9)])
     >>> f"{curve.pull_off_force / (math.pi * 0.05 * 100e-6):.2f} pi w R", curve.is_closed
     ('1.67 pi w R', True)
     """

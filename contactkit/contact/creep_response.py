@@ -177,11 +177,12 @@ def _losses(duration: float, times: Map) -> tuple[Map, Map, Map]:
     """Integral of y^2 over t/lambda in a step, as coefficients of y^2, y dp and dp^2."""
     x = duration / times
     gone = -np.expm1(-x)
-    safe = np.where(x > 0.0, x, 1.0)
     twice = -0.5 * np.expm1(-2.0 * x)
-    exact = (x - 2.0 * gone + twice) / safe**2
-    series = x * (1.0 / 3.0 - x * (1.0 / 4.0 - x * (7.0 / 60.0 - x / 24.0)))
-    return twice, gone**2 / safe, np.where(x < _SMALL, series, exact)
+    long = np.maximum(x, _SMALL)
+    exact = (x - 2.0 * gone + twice) / long**2
+    short = np.minimum(x, _SMALL)
+    series = short * (1.0 / 3.0 - short * (1.0 / 4.0 - short * (7.0 / 60.0 - short / 24.0)))
+    return twice, gone * weights(duration, times)[1], np.where(x < _SMALL, series, exact)
 
 
 class CreepHistory:

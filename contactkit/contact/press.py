@@ -152,6 +152,14 @@ def pixel_size_of(given: Any, of: str = "press") -> float | tuple[float, float]:
     >>> pixel_size_of(("1 um", 2e-6))
     (1e-06, 2e-06)
     """
+    if np.ndim(given) > 1:
+        raise DescriptionError(
+            f"{of}(pixel_size)",
+            f"an array of shape {np.shape(given)}",
+            "be one length, or a pair (dy, dx)",
+            unit="m",
+            hint="the order is heights, pixel_size, stack",
+        )
     if np.ndim(given) == 0:
         return number_of(given, "m", "pixel_size", of)
     return tuple(number_of(one, "m", "pixel_size", of) for one in given)  # type: ignore[return-value]

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     Map = NDArray[np.float64]
 
-__all__ = ["PIXELS_PER_SPOT", "check_contact"]
+__all__ = ["PIXELS_PER_SPOT", "check_contact", "jump_number", "peak_number", "slope_number"]
 
 PIXELS_PER_SPOT = "pixels across a contact spot"
 """Name of the number that says how well the spots are resolved."""
@@ -69,6 +69,11 @@ def check_contact(
     ]
     if contact.grid.edges:
         found.append(_jump(heights, contact.grid.edges))
+    if (
+        not is_periodic
+        and sum(b.surface.body_curvature for b in contact.scene.interface.bodies) > 0
+    ):
+        found.append(_cut_off(contact))
     effects = effects_of(contact.scene)
     own = [one for e in effects for one in e.validity(contact, parts.get(type(e)))]
     return (*found, *own)
@@ -148,9 +153,14 @@ def _through(touching: NDArray[np.bool_], axis: str, edges: Edges) -> float | No
 
 
 def _peak_pressure(contact: SolvedContact, even: bool) -> ValidityNumber:
-    modulus, peak = contact_modulus(contact.scene), float(contact.pressure.max())
+    peak = float(contact.pressure.max())
     # Under attraction, or between even faces, the lightest pressures are possible.
     any_low = even or peak <= 0.0 or contact.attracted is not None
+    return peak_number(peak, contact_modulus(contact.scene), any_low=any_low)
+
+
+def peak_number(peak: float, modulus: float, *, any_low: bool) -> ValidityNumber:
+    """Peak pressure [Pa] over the contact modulus E* [Pa]; `any_low`: it has no lower end."""
     is_low = not any_low and peak < LIGHTEST_PEAK * modulus
     return ValidityNumber(
         name="peak pressure over E*",
@@ -187,14 +197,18 @@ def _steps(heights: Map) -> _Steps:
 def _slope(contact: SolvedContact, steps: _Steps, even: bool) -> ValidityNumber:
     pairs = zip(steps, contact.grid.pixel_size, strict=True)
     slope = math.hypot(*(math.sqrt(float(np.square(s).mean())) / size for s, size in pairs))
-    pixel = max(contact.grid.pixel_size)
+    return slope_number(None if even else slope, max(contact.grid.pixel_size))
+
+
+def slope_number(slope: float | None, pixel: float) -> ValidityNumber:
+    """Rms slope [-] of the heights, on pixels of a size [m]; None of flat surfaces."""
     return ValidityNumber(
         name="rms slope",
-        value=None if even else slope,
+        value=slope,
         low=FLATTEST,
         high=_STEEPEST,
         detail="the surfaces are flat"
-        if even
+        if slope is None
         else f"flatter than an optical flat, on pixels of {pixel:.3g} m; check the units of "
         "heights and pixel size: 1 um is 1e-6 m"
         if slope < FLATTEST
@@ -214,6 +228,27 @@ def _around(touching: NDArray[np.bool_]) -> tuple[slice, slice]:
     return ranges[0], ranges[1]
 
 
+def _cut_off(contact: SolvedContact) -> ValidityNumber:
+    """Load on the lines at the edges that do not repeat, of a round body, which has no edge."""
+    edges, pressure = contact.grid.edges, contact.pressure
+    ends = np.zeros(contact.grid.shape, dtype=bool)
+    if edges != "y":
+        ends[[0, -1], :] = True
+    if edges != "x":
+        ends[:, [0, -1]] = True
+    load = float(np.abs(pressure).sum())
+    touching = ends & contact.touching  # attraction reaches farther, and has a number of its own
+    return ValidityNumber(
+        name="load at the edge of the window over the load",
+        value=float(np.abs(pressure[touching]).sum()) / load if load else None,
+        high=0.0,
+        detail="the contact of the round body reaches the edge of the window, where the body ends; "
+        "use a wider window"
+        if load
+        else "there is no load",
+    )
+
+
 def _jump(heights: Map, edges: Edges) -> ValidityNumber:
     """Step from the last line to the first over the largest step inside, rms along the line.
 
@@ -227,6 +262,11 @@ def _jump(heights: Map, edges: Edges) -> ValidityNumber:
         wrapped = heights.take(0, axis) - heights.take(-1, axis)
         step = math.sqrt(float(np.square(wrapped).mean()))
         worst = max(worst, step / inside if inside > 0.0 else (math.inf if step else 0.0))
+    return jump_number(worst)
+
+
+def jump_number(worst: float) -> ValidityNumber:
+    """Rms step across an edge that repeats over the largest inside [-]."""
     return ValidityNumber(
         name="jump at the edge of the periodic window",
         value=worst,

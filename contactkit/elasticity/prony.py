@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import listed
 from ..errors import DescriptionError
 
 __all__ = [
@@ -186,9 +187,9 @@ def fit_prony(
     Parameters
     ----------
     frequency : array_like, shape (m,)
-        Angular frequencies [rad/s], positive.
+        Angular frequencies [rad/s], positive: 2 pi times those in hertz.
     storage, loss : array_like, shape (m,)
-        Storage and loss moduli [Pa], positive.
+        Storage and loss moduli [Pa], positive; numbers, or texts such as ``"1.2 MPa"``.
     terms_per_decade : float
         Relaxation times to a decade of frequency [-].
 
@@ -246,7 +247,8 @@ def fit_prony(
             float(elastic[np.argmin(omega)]),
             "have a plateau at low frequencies: the fit has no equilibrium modulus",
             unit="Pa",
-            hint="the table is that of a liquid, or ends before the plateau; add lower frequencies",
+            hint="the table is that of a liquid, or ends before the plateau: add lower frequencies;"
+            " or storage and loss are swapped",
         )
     kept = found[1:] > _ZERO * found.sum()
     series = PronySeries(float(found[0]), found[1:][kept], times[kept])
@@ -256,9 +258,10 @@ def fit_prony(
 
 
 def _column(name: str, values: ArrayLike, unit: str) -> Array:
-    column = np.asarray(values, dtype=np.float64)
-    if column.ndim != 1 or not column.size or not np.all((column > 0.0) & np.isfinite(column)):
-        raise DescriptionError(
-            f"fit_prony({name})", np.shape(values), "be a list of positive numbers", unit=unit
-        )
+    column = listed(f"fit_prony({name})", values, unit)
+    wrong = np.flatnonzero(column <= 0.0)
+    if wrong.size:
+        hint = f"it is at index {wrong[0]}; leave out that row"
+        value = float(column[wrong[0]])
+        raise DescriptionError(f"fit_prony({name})", value, "be positive", unit=unit, hint=hint)
     return column

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zipfile
 from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
@@ -72,6 +73,9 @@ def read_surfaces(
         raise DescriptionError("line_scans", line_scans, "be 'refused' or 'left out'")
     file = existing(path, "container")
     check_size(file)
+    if not zipfile.is_zipfile(file):
+        cure = "a file of one map is a surface: ck.Measured(path=...)"
+        raise DescriptionError("container", str(path), "be a ZIP file of topographies", hint=cure)
     found = read_container(file, line_scans)
     several = len(found) > 1
     return {
@@ -231,11 +235,14 @@ def _height_map(name: object, surface: Any) -> HeightMap:
     elif isinstance(getattr(found, "heights", None), np.ndarray) and hasattr(found, "pixel_size"):
         heights = np.ma.filled(found.heights.astype(np.float64), np.nan)
     else:
+        is_array = isinstance(surface, np.ndarray | list | tuple)
         raise DescriptionError(
             f"surfaces[{name!r}]",
-            surface,
-            "have heights of its own",
-            hint="make them by contactkit.analyses.heights.surface_heights(surface, window)",
+            f"an array of shape {np.shape(surface)}" if is_array else surface,
+            "be a surface with heights of its own",
+            hint="give its pixels a size: ck.Heights(heights=..., pixel_size=...)"
+            if is_array
+            else "make them by contactkit.analyses.heights.surface_heights(surface, window)",
         )
     size = found.pixel_size
     pair = (size[0], size[1]) if isinstance(size, tuple) else (size, size)

@@ -16,6 +16,7 @@ profile     Profile likelihood of a parameter.
 posterior   Posterior, by the ensemble sampler of emcee.
 compare     `compare_fits`: which of several models the data ask for.
 readers     Measured curves from CSV files, data frames, datasets and results.
+csv_columns Columns of CSV files.
 force_curves
             Force curves of atomic force microscopes, in and out.
 fit_file    Files of fits.

@@ -11,7 +11,8 @@ from attrs import field, frozen
 
 from ..errors import DescriptionError
 from ..frozen import FrozenDict
-from ..units import parse_quantity, parse_unit
+from ..units import Scale, parse_difference, parse_quantity, parse_scale
+from ..validators import Described
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -26,7 +27,8 @@ NUISANCES = ("shift", "zero", "scale", "stiffness")
 
 def _array(value: Any) -> Floats:
     try:
-        found = np.array(value, dtype=np.float64)
+        # A masked value is nan, which is refused with its index.
+        found = np.array(np.ma.filled(np.ma.array(value, dtype=np.float64), np.nan))
     except (TypeError, ValueError) as error:
         hint = f"{error}; units go into units=, such as ('um', 'mN')"
         raise DescriptionError("MeasuredCurve", value, "hold numbers", hint=hint) from None
@@ -42,7 +44,7 @@ def _frozen_map(value: Any) -> FrozenDict[str, Any]:
 
 
 @frozen(kw_only=True, eq=False)
-class MeasuredCurve:
+class MeasuredCurve(Described):
     r"""A measured quantity over an axis, with its noise and the nuisances of the instrument.
 
     A reading :math:`y` at the position :math:`x` of the instrument is compared with the quantity
@@ -68,7 +70,7 @@ class MeasuredCurve:
     values : array_like (n,)
         Readings, in ``units[1]``.
     units : (str, str)
-        Units of `at` and `values`; SI if not given.
+        Units of `at` and `values`, such as ``"um"`` or ``"degC"``; SI if not given.
     noise : float, str, array_like or None
         Standard deviation of the readings: a number or an array in ``units[1]``, a text with a
         unit, or in percent of each reading. None: the same for all readings of the curve, estimated
@@ -147,20 +149,22 @@ class MeasuredCurve:
                 raise DescriptionError(f"{label}.{what}", one, f"be {choices}")
         if not isinstance(self.units, tuple | list) or len(self.units) != 2:
             raise DescriptionError(f"{label}.units", self.units, "be two, such as ('um', 'mN')")
-        self._factors()
+        self._scales()
 
-    def _factors(self) -> tuple[float, float]:
-        return parse_unit(self.units[0]).factor, parse_unit(self.units[1]).factor
+    def _scales(self) -> tuple[Scale, Scale]:
+        return parse_scale(self.units[0]), parse_scale(self.units[1])
 
     @property
     def x(self) -> Floats:
         """Positions in SI units."""
-        return np.asarray(self.at * self._factors()[0])
+        scale = self._scales()[0]
+        return np.asarray(self.at * scale.factor + scale.zero)
 
     @property
     def y(self) -> Floats:
         """Readings in SI units."""
-        return np.asarray(self.values * self._factors()[1])
+        scale = self._scales()[1]
+        return np.asarray(self.values * scale.factor + scale.zero)
 
     @property
     def is_estimated(self) -> bool:
@@ -177,7 +181,7 @@ class MeasuredCurve:
         DescriptionError
             If it is not positive, or in another unit.
         """
-        size, factor = np.abs(self.y), self._factors()[1]
+        size, factor = np.abs(self.y), self._scales()[1].factor
         noise, label = self.noise, f"MeasuredCurve({self.name}).noise"
         if noise is None:
             found = np.ones_like(size)
@@ -186,7 +190,7 @@ class MeasuredCurve:
         elif isinstance(noise, str) and noise.strip().endswith("%"):
             found = size * parse_quantity(noise, "-", label)
         elif isinstance(noise, str):
-            found = np.full_like(size, parse_quantity(noise, unit, label))
+            found = np.full_like(size, parse_difference(noise, unit, label))
         else:
             found = np.broadcast_to(_array(noise), size.shape) * factor
         if not np.all(np.isfinite(found) & (found > 0.0)):
@@ -220,7 +224,7 @@ class MeasuredCurve:
         """
         given, label = getattr(self, name), f"MeasuredCurve({self.name}).{name}"
         unit, factor = self.nuisance_unit(name, units)
-        value = parse_quantity(given, unit, label)
+        value = parse_difference(given, unit, label)
         value = value if isinstance(given, str) else value * factor
         if math.isnan(value) or (value <= 0.0 and name in ("scale", "stiffness")):
             raise DescriptionError(label, given, "be positive", unit=unit)
@@ -235,11 +239,11 @@ class MeasuredCurve:
         if name == "scale":
             return "-", 1.0
         i = 0 if name == "shift" else 1
-        return units[i], self._factors()[i]
+        return units[i], self._scales()[i].factor
 
 
 @frozen(kw_only=True)
-class MeasuredBound:
+class MeasuredBound(Described):
     """A number of the result that is known to lie above or below a value, such as a jump.
 
     Parameters

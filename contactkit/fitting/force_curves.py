@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import logging
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -12,6 +14,7 @@ from ..errors import DescriptionError, nearest
 from ..extras import require
 from ..files.scenes import write_whole
 from ..reading.limits import check_size
+from ..reading.named_files import existing
 from ..units import parse_quantity, parse_unit
 from .data import MeasuredCurve
 
@@ -25,6 +28,8 @@ __all__ = ["read_force_curve", "write_force_curve"]
 _HEIGHTS = ("height (measured)", "height (piezo)")
 # What some formats do not state, with the unit that afmformats wants.
 _INSTRUMENT = {"spring constant": "N/m", "sensitivity": "m/V"}
+# Makers whose files have the deflection as a current, which afmformats takes for a voltage.
+_OF_CURRENT, _PER_CURRENT = "NT-MDT", "m/A"
 
 
 def read_force_curve(
@@ -58,7 +63,8 @@ def read_force_curve(
         positive in repulsion, which is the gap but for its zero.
     instrument : mapping of str to float or str, optional
         ``"spring constant"`` [N/m] and ``"sensitivity"`` (the inverse optical lever sensitivity)
-        [m/V] in place of those of the file, or where it has none.
+        [m/V] in place of those of the file, or where it has none. The text files of NT-MDT have a
+        deflection in amperes: [m/A] there, such as ``"50 nm/nA"``.
     index : int
         Which curve of a file with several.
     is_load : bool
@@ -75,7 +81,7 @@ def read_force_curve(
         the instrument is none that can be given.
     """
     require("afmformats", "a force curve of an AFM")
-    check_size(Path(path))
+    check_size(existing(path, "force curve"))
     for name, value, known in (
         ("segment", segment, ("approach", "retract")),
         ("position", position, ("base", "tip")),
@@ -86,6 +92,8 @@ def read_force_curve(
     if not 0 <= index < len(curves):
         raise DescriptionError("index", index, f"be below {len(curves)}, the curves of the file")
     one = curves[index]
+    if isinstance(given := (instrument or {}).get("sensitivity"), str):
+        parse_quantity(given, _sensitivity_unit(str(one.metadata.get("format"))), "sensitivity")
     part = one.appr if segment == "approach" else one.retr
     height = next((n for n in _HEIGHTS if n in one), None)
     if height is None or "force" not in one:
@@ -126,6 +134,10 @@ def _spring(one: Any, position: str, where: str) -> float | None:
     return float(found)
 
 
+def _sensitivity_unit(maker: str) -> str:
+    return _PER_CURRENT if maker.startswith(_OF_CURRENT) else _INSTRUMENT["sensitivity"]
+
+
 def _given(instrument: Mapping[str, float | str]) -> dict[str, float]:
     """Numbers of the instrument in SI units, by the names that afmformats has for them."""
     found = {}
@@ -134,6 +146,9 @@ def _given(instrument: Mapping[str, float | str]) -> dict[str, float]:
             hint = nearest(name, _INSTRUMENT)
             raise DescriptionError("instrument", name, "be a number of the instrument", hint=hint)
         unit = _INSTRUMENT[name]
+        if name == "sensitivity" and isinstance(value, str):
+            with suppress(DescriptionError):
+                value, unit = parse_quantity(value, _PER_CURRENT, name), _PER_CURRENT
         number = parse_quantity(value, unit, name) if isinstance(value, str) else value
         if not isinstance(number, int | float) or not 0.0 < number < np.inf:
             raise DescriptionError(name, value, "be positive and finite", unit=unit)
@@ -149,16 +164,37 @@ def _curves(path: Path, instrument: dict[str, float]) -> list[Any]:
     own = [one for one in vars(afmformats.errors).values() if isinstance(one, type)]
     unreadable: tuple[type[BaseException], ...] = (Exception, *own)
     try:
-        return list(afmformats.load_data(path, modality="force-distance", meta_override=instrument))
+        with _silent("afmformats"):
+            found = afmformats.load_data(path, modality="force-distance", meta_override=instrument)
+        return list(found)
     except afmformats.errors.MissingMetaDataError as error:
         lacking = ", ".join(map(str, error.meta_keys))
         hint = f"give instrument={{{', '.join(f'{key!r}: ...' for key in error.meta_keys)}}}"
         raise DescriptionError("file", str(path), f"state its {lacking}", hint=hint) from None
+    except NotImplementedError:
+        raise DescriptionError(
+            "instrument",
+            sorted(instrument),
+            f"be left out: {path.name} has its forces in newtons, and its own numbers",
+            hint="stiffness='0.05 N/m' replaces the spring of the curve",
+        ) from None
     except unreadable as error:
         hint = f"{type(error).__name__}: {error}"[:300]
         raise DescriptionError(
             "file", str(path), "be a force curve that afmformats reads", hint=hint
         ) from None
+
+
+@contextmanager
+def _silent(name: str) -> Iterator[None]:
+    """Without what a logger writes: tracebacks of errors that are raised as well."""
+    logger = logging.getLogger(name)
+    before = logger.level
+    logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
 
 
 def write_force_curve(

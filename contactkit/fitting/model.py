@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..errors import ContactkitError, DescriptionError
+from ..errors import ContactkitError, DescriptionError, nearest
 from ..studies.paths import axes, check_apart, paths_of, read_value
-from ..units import parse_unit
+from ..units import parse_scale, parse_unit
 from .data import NUISANCES, MeasuredBound, MeasuredCurve
 from .outcomes import Outcome, stated_error
 from .parameters import Parameter, by_path, nuisance_parameter
@@ -126,6 +126,10 @@ class Model:
 
     def _path(self, curve: MeasuredCurve) -> str:
         """Path of the scene that a curve is over; empty for a column."""
+        if "." in curve.over and curve.over not in self._known:
+            field = f"MeasuredCurve({curve.name}).over"
+            cure = nearest(curve.over, sorted(self._known))
+            raise DescriptionError(field, curve.over, "be a field of the scene", hint=cure)
         return curve.over if curve.over in self._known else ""
 
     def _grouped(self) -> list[tuple[str, ...]]:
@@ -407,5 +411,5 @@ def nuisance_parameters(
 
 def _check_unit(field: str, given: str, unit: str) -> None:
     """Refuse a unit of another dimension; a curve without one is in SI units."""
-    if given and parse_unit(given).dimension != parse_unit(unit).dimension:
+    if given and parse_scale(given).dimension != parse_unit(unit).dimension:
         raise DescriptionError(field, given, f"convert to {unit}, the unit of the result")

@@ -12,7 +12,7 @@ from ..accuracy import Accuracy
 from ..errors import DescriptionError
 from ..studies.paths import axes, check_apart, joined, value_at
 from ..studies.sensitivity import Range
-from ..units import parse_quantity
+from ..units import parse_difference, parse_quantity
 
 __all__ = ["Parameter", "Prior", "by_path", "nuisance_parameter", "scene_parameters"]
 
@@ -218,7 +218,7 @@ def _of_prior(
     if isinstance(given, str) and given.strip().endswith("%"):
         deviation = abs(value) * parse_quantity(given, "-", origin)
     else:
-        deviation = parse_quantity(given, unit, origin)
+        deviation = parse_difference(given, unit, origin)
     if not (math.isfinite(deviation) and deviation > 0.0):
         raise DescriptionError(origin, given, "be positive and finite", unit=unit)
     low, high = value - _DEVIATIONS * deviation, value + _DEVIATIONS * deviation
@@ -244,7 +244,7 @@ def nuisance_parameter(name: str, unit: str, given: Any, factor: float = 1.0) ->
     low, high, deviation, reason = _ends_of(origin, given)
 
     def number(value: Any) -> float:
-        found = parse_quantity(value, unit, origin)
+        found = parse_difference(value, unit, origin)
         return found if isinstance(value, str) else factor * found
 
     if high is None:

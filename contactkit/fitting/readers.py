@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import DescriptionError, nearest
-from ..reading.limits import check_limit
-from ..reading.texts import read_text
+from ..reading.named_files import existing
 from ..scene.curve import Curve
 from ..scene.result import Result
+from ..units import parse_scale
+from .csv_columns import csv_columns
 from .data import MeasuredCurve
 
 if TYPE_CHECKING:
@@ -43,8 +43,10 @@ def read_measured_curve(
     Parameters
     ----------
     source : str, Path, mapping, DataFrame, Dataset, Result or Curve
-        A CSV file with a head such as ``gap [um], force [mN]``, arrays by name, a data frame of
-        pandas, a dataset of xarray, or a result or curve of contactkit.
+        A CSV file with a head such as ``gap [um], force [mN]`` (or ``gap / um``), whose cells are
+        separated by commas, semicolons, tabs or blanks, with decimal commas unless these separate
+        them; arrays by name, a data frame of pandas, a dataset of xarray, or a result or curve of
+        contactkit.
     over, quantity : str
         As of `MeasuredCurve`: what the columns are compared with.
     columns : mapping of str to str, optional
@@ -59,8 +61,8 @@ def read_measured_curve(
     Raises
     ------
     DescriptionError
-        If there is no such column, it has no unit, or holds no numbers; a row without a number is
-        named.
+        If there is no such column or there are two, it has no unit, or holds no numbers; a row
+        without a number is named.
 
     Examples
     --------
@@ -83,9 +85,11 @@ def read_measured_curve(
     pair = tuple(given.get(key) or found[key][1] or _no_unit(key, name) for key in (over, quantity))
     if "noise" in found:
         noise_unit = given.get("noise") or found["noise"][1] or pair[1]
-        if noise_unit != pair[1]:
-            raise DescriptionError("units['noise']", noise_unit, f"be {pair[1]}, as the readings")
-        more["noise"] = found["noise"][0]
+        scale, reading = parse_scale(noise_unit), parse_scale(pair[1])
+        if scale.dimension != reading.dimension:
+            expected = f"convert to {pair[1]}, the unit of the readings"
+            raise DescriptionError("units['noise']", noise_unit, expected)
+        more["noise"] = found["noise"][0] * (scale.factor / reading.factor)
     label = {"name": name} if name else {}
     return MeasuredCurve(
         over=over,
@@ -105,7 +109,7 @@ def _no_unit(key: str, name: str) -> str:
 def _table(source: Any) -> tuple[dict[str, _Column], str]:
     """Columns of a source by name, each with its unit, and a name for the curve."""
     if isinstance(source, str | Path):
-        return _csv(Path(source)), Path(source).stem
+        return _by_name(*csv_columns(existing(source, "file"))), Path(source).stem
     if isinstance(source, Curve):
         return source.table(), ""
     if isinstance(source, Result):
@@ -114,48 +118,48 @@ def _table(source: Any) -> tuple[dict[str, _Column], str]:
         known = {str(n): source[n] for n in (*source.coords, *source.data_vars)}
         return {n: (one.values, one.attrs.get("units", "")) for n, one in known.items()}, ""
     if hasattr(source, "columns") and hasattr(source, "attrs"):  # a data frame of pandas
-        stated = source.attrs.get("units", {})
-        return {
-            plain: (source[head].to_numpy(), stated.get(head, unit))
-            for head in source.columns
-            for plain, unit in [_split(str(head))]
-        }, ""
+        stated, heads = source.attrs.get("units", {}), list(source.columns)
+        columns = [source.iloc[:, i].to_numpy() for i in range(len(heads))]
+        return _by_name(map(str, heads), columns, stated), ""
     if isinstance(source, Mapping):
-        return {
-            plain: (v, unit) for head, v in source.items() for plain, unit in [_split(str(head))]
-        }, ""
+        return _by_name(map(str, source), source.values()), ""
     expected = "be a file, arrays by name, a data frame, a dataset, a result or a curve"
     raise DescriptionError("source", source, expected)
 
 
+_TWICE = object()  # in place of a column whose name another one has
+
+
+def _by_name(
+    headings: Iterable[str],
+    columns: Iterable[Any],
+    stated: Mapping[Any, str] = MappingProxyType({}),
+) -> dict[str, _Column]:
+    """Columns by their names; `stated` are units in place of those in the headings."""
+    found = dict[str, _Column]()
+    for heading, column in zip(headings, columns, strict=True):
+        name, unit = _split(heading)
+        if name:
+            unit = stated.get(heading, unit)
+            found[name] = (_TWICE if name in found else column, unit)
+    return found
+
+
 def _split(heading: str) -> tuple[str, str]:
-    """Name and unit of a heading such as ``gap [um]``."""
+    """Name and unit of a heading such as ``gap [um]``, ``gap (um)`` or ``gap / um``."""
+    name, slash, unit = heading.partition(" / ")
+    if slash and _is_unit(unit.strip()):
+        return name.strip(), unit.strip()
     match = _HEADING.fullmatch(heading)
     return (match["name"], match["unit"] or "") if match else (heading, "")
 
 
-def _csv(path: Path) -> dict[str, _Column]:
-    """Columns of a CSV file as texts; lines that begin with # are left out."""
+def _is_unit(text: str) -> bool:
     try:
-        text = read_text(path, "TEXT_BYTES", "utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise DescriptionError("file", str(path), "be a CSV file", hint=str(error)) from None
-    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
-    check_limit("POINTS", len(lines), str(path))
-    head = lines[0] if lines else ""
-    separator = max(",;\t", key=head.count)
-    rows = list(csv.reader(io.StringIO("\n".join(lines)), delimiter=separator))
-    if len(rows) < 2:
-        raise DescriptionError("file", str(path), "have a head and at least one row")
-    width = len(rows[0])
-    for i, row in enumerate(rows[1:], 2):
-        if len(row) != width:
-            expected = f"have {width} cells in each row"
-            raise DescriptionError("file", str(path), expected, hint=f"row {i} has {len(row)}")
-    names = [_split(cell.lstrip("'")) for cell in rows[0]]
-    return {
-        name: ([row[i] for row in rows[1:]], unit) for i, (name, unit) in enumerate(names) if name
-    }
+        parse_scale(text)
+    except DescriptionError:
+        return False
+    return True
 
 
 def _picked(known: Mapping[str, _Column], column: str, key: str, name: str) -> tuple[Floats, str]:
@@ -163,11 +167,19 @@ def _picked(known: Mapping[str, _Column], column: str, key: str, name: str) -> t
     plain = _split(column)[0]
     if plain not in known:
         hint = f"{nearest(plain, list(known))}; give columns={{{key!r}: ...}}"
-        raise DescriptionError("column", column, f"be one of {name or 'the data'}", hint=hint)
+        raise DescriptionError("column", column, f"be a column of {name or 'the data'}", hint=hint)
     values, unit = known[plain]
-    if isinstance(values, list):
+    if values is _TWICE:
+        hint = "two columns have it: rename one"
+        raise DescriptionError(
+            "column", column, f"be there once in {name or 'the data'}", hint=hint
+        )
+    if isinstance(values, list) and all(isinstance(cell, str) for cell in values):
         values = [_number(cell, plain, i) for i, cell in enumerate(values, 2)]
-    found = np.array(values, dtype=np.float64)
+    try:
+        found = np.ma.filled(np.ma.array(values, dtype=np.float64), np.nan)
+    except (TypeError, ValueError) as error:
+        raise DescriptionError("column", column, "hold numbers", hint=str(error)) from None
     if found.ndim != 1:
         raise DescriptionError("column", column, "be one of numbers along one axis")
     return found, unit
@@ -177,5 +189,9 @@ def _number(cell: str, column: str, row: int) -> float:
     try:
         return float(cell)
     except ValueError:
-        hint = "a decimal comma? write a point" if "," in cell else "leave out the row"
+        hint, unit = "leave out the row", cell.strip("[]() ")
+        if "," in cell:
+            hint = "a decimal comma? write a point"
+        elif row == 2 and unit and _is_unit(unit):
+            hint = f"units stand in the head, as '{column} [{unit}]'"
         raise DescriptionError(f"{column}, row {row}", cell, "be a number", hint=hint) from None

@@ -5,13 +5,23 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from ..errors import DescriptionError
 from .limits import check_limit, limit_of
 
-__all__ = ["check_keys", "check_plain", "check_texts", "from_json", "printable", "read_text"]
+__all__ = [
+    "check_keys",
+    "check_plain",
+    "check_texts",
+    "decoded",
+    "from_json",
+    "printable",
+    "read_bytes",
+    "read_text",
+]
 
 # What is no key of TOML: strings, which end with their line unless they have three quotes, and
 # comments. Possessive, so that the time rises with the length of a text and not with its square.
@@ -37,13 +47,51 @@ def read_text(path: Path, limit: str, encoding: str = "utf-8") -> str:
     UnicodeDecodeError, OSError
         If it cannot be read.
     """
+    return read_bytes(path, limit).decode(encoding)
+
+
+def read_bytes(path: Path, limit: str) -> bytes:
+    """Content of a file of limited size.
+
+    Raises
+    ------
+    DescriptionError
+        If it is no file, or larger than the limit of this name.
+    OSError
+        If it cannot be read.
+    """
     if path.exists() and not path.is_file():
         raise DescriptionError("file", str(path), "be readable", hint="it is a folder or a device")
     with path.open("rb") as file:
         content = file.read(limit_of(limit) + 1)  # whatever size it states
     if len(content) > limit_of(limit):
         check_limit(limit, max(path.stat().st_size, len(content)), str(path))
-    return content.decode(encoding)
+    return content
+
+
+def decoded(content: bytes, where: str) -> str:
+    r"""Text of a table as spreadsheets and instruments write it.
+
+    UTF-8, or UTF-16 where its mark stands at the beginning; else that of Windows in western Europe,
+    whose digits are the same and which has letters such as the sign of micro.
+
+    Raises
+    ------
+    DescriptionError
+        If it is no text.
+
+    Examples
+    --------
+    >>> decoded(b"gap [\xb5m]", "pull.csv"), decoded("gap".encode("utf-16"), "pull.csv")
+    ('gap [µm]', 'gap')
+    """
+    is_marked = content.startswith((b"\xff\xfe", b"\xfe\xff"))
+    for encoding in ["utf-16"] if is_marked else ["utf-8-sig", "cp1252"]:
+        with suppress(UnicodeDecodeError):
+            text = content.decode(encoding)
+            if "\0" not in text:
+                return text
+    raise DescriptionError("file", where, "be a text", hint="export it as CSV, in UTF-8")
 
 
 def check_keys(text: str, where: str) -> None:

@@ -90,6 +90,13 @@ def read_instrument(
     DescriptionError
         If SurfaceTopography is not installed, or cannot read the file within the limits.
     """
+    with file.open("rb") as content:
+        if zipfile.is_zipfile(content):
+            with checked_archive(content, str(file)) as packed:  # it unpacks to what may be read
+                names = packed.namelist()
+            if place is None and not {"index.json", "meta.yml"}.isdisjoint(names):
+                cure = f"it is a container: ck.read_surfaces({file.name!r}) has its maps"
+                raise DescriptionError("HeightMap.path", str(file), "be one map", hint=cure)
     if importlib.util.find_spec("SurfaceTopography") is None:
         raise DescriptionError(
             "HeightMap.path",
@@ -97,10 +104,6 @@ def read_instrument(
             f"end in .npy, .xyz, {', '.join(MATRICES)}, or be .sdf as text",
             hint="files of instruments and binary .sdf need pip install contactkit[maps]",
         )
-    with file.open("rb") as content:
-        if zipfile.is_zipfile(content):
-            with checked_archive(content, str(file)):
-                pass  # it unpacks to what may be read
     with tempfile.TemporaryDirectory(prefix="contactkit-") as folder:
         _ask(Path(folder), file, {"size": size, "unit": unit, "channel": channel, "place": place})
         return _answered(Path(folder), file)
@@ -152,5 +155,5 @@ def unreadable(file: Path, why: str) -> DescriptionError:
         "HeightMap.path",
         str(file),
         "be in a format that SurfaceTopography reads",
-        hint=f"{cure} ({why})",
+        hint=f"{cure} ({' '.join(why.split())})",
     )

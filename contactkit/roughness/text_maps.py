@@ -46,6 +46,8 @@ _UNITS = ("value units",)
 _HEIGHTS = ("z amplitude",)  # a length, in the unit of the heights
 
 _DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
+# What instruments write for a point that was not measured.
+_UNMEASURED = re.compile(r"(?<![^\s;,])(?:bad|n/?a|null|none|\*+|-{2,})(?![^\s;,])", re.IGNORECASE)
 
 
 class Header(NamedTuple):
@@ -126,12 +128,14 @@ def read_matrix(file: Path, *, holes: bool = False) -> Array:
 
 
 def _numbers(file: Path, layout: _Layout, *, holes: bool) -> Iterator[str]:
-    """Data lines with decimal points, and nan for empty cells."""
+    """Data lines with decimal points, and nan for cells that are empty or marked."""
     for _, data in _data_lines(file):
         line = data.replace(",", ".") if layout.has_decimal_commas else data
-        if holes and layout.delimiter:
-            cells = (cell.strip() or "nan" for cell in line.split(layout.delimiter))
-            line = layout.delimiter.join(cells)
+        if holes:
+            line = _UNMEASURED.sub("nan", line)
+            if layout.delimiter:
+                cells = (cell.strip() or "nan" for cell in line.split(layout.delimiter))
+                line = layout.delimiter.join(cells)
         yield line
 
 
@@ -194,7 +198,7 @@ def _steps(values: Array, name: str, file: Path) -> tuple[NDArray[np.int64], int
             f"HeightMap.{name}",
             float(values[worst]),
             f"have equal steps in {file.name}",
-            hint="resample the map onto a regular grid",
+            hint="columns are x, y, z; resample the map onto a regular grid",
         )
     return number, n, step
 
@@ -208,14 +212,17 @@ def _data_lines(file: Path) -> Iterator[tuple[int, str]]:
                 if data := line.split("#")[0].strip(" \r\n"):
                     yield number, data
     except UnicodeDecodeError as error:
-        raise DescriptionError("HeightMap.path", str(file), "be a text of numbers") from error
+        cure = f"it is not in UTF-8 from byte {error.start} on: save it as that"
+        raise DescriptionError(
+            "HeightMap.path", str(file), "be a text of numbers", hint=cure
+        ) from error
 
 
 def _layout(file: Path, *, tabs: bool) -> _Layout:
     """Delimiter and decimal sign, from the first data line; `tabs`: between them is a cell."""
     _, first = next(_data_lines(file), (0, ""))
     if not first.strip():
-        raise DescriptionError("HeightMap.heights", "none", f"be in {file.name}")
+        raise DescriptionError("HeightMap.path", str(file), "hold numbers", hint="it has none")
     has_words = any(line and not line.startswith("#") for line in _header_lines(file))
     if ";" in first:
         return _Layout(";", "," in first, has_words)
@@ -235,11 +242,13 @@ def _reason(file: Path, layout: _Layout, message: str, *, holes: bool) -> Descri
         words = [word.strip() for word in text.split(layout.delimiter)]
         place = f"{file.name}, line {number}"
         for column, word in enumerate(words, start=1):
-            if (holes and not word) or _is_number(word):
+            if _is_number(word) or (holes and (not word or _UNMEASURED.fullmatch(word))):
                 continue
             hint = "put # before lines that are no data"
             if not word:
                 hint = f"{HOLES}; no line may end in a comma"
+            elif _UNMEASURED.fullmatch(word):
+                hint = HOLES
             return DescriptionError(
                 "HeightMap.heights", word, f"be numbers ({place}, column {column})", hint=hint
             )

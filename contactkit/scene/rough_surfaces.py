@@ -270,6 +270,14 @@ def _as_map(value: Any) -> Map:
             unit="m",
             hint="for a file use Measured(path=...)",
         )
+    if given.dtype == np.float16:  # 50 nm is a multiple of 60 nm there
+        raise DescriptionError(
+            "Heights.heights",
+            "an array of float16",
+            "be of float32 or float64: float16 has 3 digits, and none below 6e-8",
+            unit="m",
+            hint="convert to float64 where the heights still have the unit of the file, then to m",
+        )
     holes = np.ma.getmaskarray(value) if np.ma.is_masked(value) else None
     if holes is not None:  # kept until `Heights` takes the mask
         return np.ma.MaskedArray(np.array(np.ma.getdata(value), dtype=float, order="C"), holes)

@@ -79,3 +79,19 @@ def check_sentence() -> str:
         f"of films on which two other codes agree are met to {worst:.0e}, pressures of rough "
         f"contacts at the default tolerance to {pixels:.0e}."
     )
+
+
+_SHARED = "% Of contactkit/data/references.bib, by docs/scripts/tables.py:\n"
+
+
+def bibliography(own: str) -> str:
+    """Bibliography of the paper: its own entries, then those of the package that it cites.
+
+    One file beside the paper is all that its journal reads.
+    """
+    paper = (DOCS / "paper" / "paper.md").read_text("utf-8")
+    shared = (DOCS.parent / "contactkit" / "data" / "references.bib").read_text("utf-8")
+    cited = set(re.findall(r"@([a-z0-9]+)", paper))
+    entries = re.split(r"^(?=@)", shared, flags=re.MULTILINE)[1:]
+    kept = [one.strip() for one in entries if re.match(r"@\w+\{(\w+),", one)[1] in cited]  # type: ignore[index]
+    return own.partition(_SHARED)[0] + _SHARED + "\n" + "\n\n".join(kept) + "\n"

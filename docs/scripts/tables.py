@@ -22,6 +22,7 @@ from device_tables import assumption_table
 from errata_table import errata_table
 from liquid_tables import liquid_source_table, liquid_table
 from paper_tables import (
+    bibliography,
     check_sentence,
     feature_table,
     hard_case_sentence,
@@ -312,9 +313,10 @@ def updated(text: str) -> str:
 def stale(*, write: bool = False) -> list[str]:
     """Pages whose tables are not those of the code; with `write` they are brought up to date."""
     found = []
-    for page in sorted(DOCS.rglob("*.md")):
+    pages = [(page, updated) for page in sorted(DOCS.rglob("*.md"))]
+    for page, make in (*pages, (DOCS / "paper" / "paper.bib", bibliography)):
         old = page.read_text(encoding="utf-8")
-        new = updated(old)
+        new = make(old)
         if new != old:
             found.append(page.relative_to(DOCS).as_posix())
             if write:

@@ -18,6 +18,8 @@ deforming    Native FMUs of a film between bodies that deform: a spring in serie
 film         The film of a scene as the tables that the C kernel of a native FMU reads.
 grid         Grid of a film that cavitates on a face that is no disc.
 tables       Functions of the gap as quintic Hermite tables, for the C kernel of a native FMU.
+rheology     Films whose viscosity follows pressure and shear, as the tables that the kernel reads.
+ratios       Ratios of forces over gap and speed as splines, for the C kernel of a native FMU.
 ports        The variables of a native FMU: those of the Python FMU of that name that a table
              leaves free.
 description  Model descriptions and build descriptions of native FMUs, in both versions of FMI.

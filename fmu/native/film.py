@@ -19,8 +19,23 @@ from ...separation.effects.force_law import ForceLaw, measured_rate
 from ...separation.effects.prepared import PreparedScene, with_fraction
 from ...separation.effects.viscous import ShearLimit, TensionLimit, ViscousForce, viscous_film
 from ...separation.face.shape import on_face
+from ...separation.film import Film as PlanFilm
 from ...separation.plan import Plan, plan
-from .records import Film, FilmTables, Grid, Law, LiquidTable, Rate, Scale, Table
+from ...separation.rheology.prepared_film import PreparedFilm as RheologyOfFilm
+from ..slaves.rheology import is_rheological, with_rheology
+from .records import (
+    Film,
+    FilmTables,
+    Grid,
+    Law,
+    LiquidTable,
+    Rate,
+    Rheology,
+    Scale,
+    Scaling,
+    Table,
+)
+from .rheology import nearest_gap, rheological_film, rheology_record, scaling_of
 from .tables import Tabulate, tabulate
 
 __all__ = [
@@ -94,9 +109,10 @@ class FreeLiquid(NamedTuple):
 def free_liquid(prepared: PreparedScene[SeparationScene]) -> FreeLiquid:
     """Viscosity [Pa.s] and surface tension [N/m] that may be set in the FMU; 0 where they may not.
 
-    A property of the liquid may be set where each effect that reads it is proportional to it.
+    A property of the liquid may be set where each effect that reads it is proportional to it, and
+    the viscosity where its rheology is known for another one.
     """
-    scene = prepared.scene
+    scene, film = prepared.scene, rheological_film(prepared)
     forces = {e for e in scene.effects if isinstance(e, SeparationForce)}
     scaled = {e.proportional_to(scene) for e in forces}
     for effect in scene.effects:
@@ -106,6 +122,8 @@ def free_liquid(prepared: PreparedScene[SeparationScene]) -> FreeLiquid:
         (prepared.liquid.given(name) or 0.0) if name in scaled else 0.0
         for name in ("viscosity", "surface_tension")
     )
+    if film is not None and scaling_of(film) is Scaling.NONE:
+        viscosity = 0.0
     return FreeLiquid(viscosity, tension)
 
 
@@ -141,14 +159,17 @@ def prepared_film(
     ContactkitError
         If the scene cannot be planned, or a force is too rough for a table.
     """
-    made = plan(scene, accuracy)
+    made = plan(with_rheology(scene), accuracy)
     _check_rheology(made)
     interface, loading, fraction = scene.interface, scene.loading, scene.meniscus.rewetting
     # Under a sphere whose cavity is followed, the film is one on a face with a crown.
     is_sphere = not interface.is_flat and not on_face(scene)
     returns = scene.meniscus.volume is not None and 0.0 < fraction < 1.0
     tension = scene.effect(TensionLimit)
+    rheological = rheological_film(made.prepared)
     lowest = max(1e-13, 1e-3 * loading.initial_gap)
+    if rheological is not None:
+        lowest = nearest_gap(rheological, loading.initial_gap)
     common = _Common(made, free_liquid(made.prepared), lowest, make)
     if made.moving_effects:
         raise PlanError(
@@ -167,10 +188,11 @@ def prepared_film(
         grid=_grid(common),
     )
     force = made.film.static_force(loading.initial_gap)
+    laws = _tabulated(made.film, _computed(made.prepared))
     effects = tuple(
         type(effect)
         for effect in _forces(scene)
-        for _ in _parts(common, effect, made.film.laws[type(effect)])
+        for _ in _parts(common, effect, laws[type(effect)])
     )
     free = {name for name, value in common.free._asdict().items() if value}
     liquid = liquid_over_temperature(scene, free)
@@ -200,12 +222,14 @@ def _film(common: _Common, fraction: float) -> Film:
     """Tables of the film with a fraction of the volume."""
     made = common.plan
     film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
+    rheology = _computed(prepared)
     forces = _forces(made.scene)
     rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
     is_liquid = any(kind.newtonian is not None for kind in film.laws)
     shape = _liquid_shape(prepared) if is_liquid else None
     disc = shape if can_cavitate(made.scene) and not on_face(made.scene) else None
-    laws = [law for effect in forces for law in _laws(common, effect, film.laws[type(effect)])]
+    tabulated = _tabulated(film, rheology)
+    laws = [law for effect in forces for law in _laws(common, effect, tabulated[type(effect)])]
     if len(laws) > Film.most("laws"):
         raise PlanError(
             f"{len(laws)} tables of forces are more than the {Film.most('laws')} of a native FMU; "
@@ -219,7 +243,30 @@ def _film(common: _Common, fraction: float) -> Film:
         shape=_shape(common, shape),
         rim_square=disc.rim * disc.rim if disc else 0.0,
         volume=disc.volume if disc else 0.0,
+        rheology=None if rheology is None else _rheology(common, rheology),
     )
+
+
+def _computed(prepared: PreparedScene[SeparationScene]) -> RheologyOfFilm | None:
+    """Film whose viscosity follows pressure and shear, which a plan has prepared; None for none."""
+    rheology = prepared.rheology
+    film = rheology.film if rheology is not None and rheology.computed else None
+    return film if isinstance(film, RheologyOfFilm) else None
+
+
+def _tabulated(
+    film: PlanFilm, rheology: RheologyOfFilm | None
+) -> dict[type[SeparationForce], ForceLaw]:
+    """Laws of a film that are tables over the gap: of a rheology that at the viscosity at rest."""
+    found = dict(film.laws)
+    if rheology is not None:
+        found[ViscousForce] = rheology.linear_law()
+    return found
+
+
+def _rheology(common: _Common, film: RheologyOfFilm) -> Rheology:
+    start = common.plan.scene.loading.initial_gap
+    return rheology_record(film, (common.lowest, _FAR * common.final_gap), start)
 
 
 def _forces(scene: SeparationScene) -> list[SeparationForce]:
@@ -238,11 +285,13 @@ def _check_rheology(made: Plan) -> None:
     """Refuse films that tables over the gap do not hold."""
     scene, rheology = made.scene, made.prepared.rheology
     if rheology is not None and rheology.computed:
-        raise PlanError(
-            "a native FMU has no form of a viscosity over pressure or shear: its tables are over "
-            'the gap alone; give ViscousForce(rheology="newtonian"), or run the scene with '
-            "ck.simulate"
-        )
+        if not isinstance(rheology.film, RheologyOfFilm):
+            raise PlanError(
+                "a native FMU knows a viscosity over pressure or shear between discs and under a "
+                'sphere, not on a face that is no disc; ViscousForce(rheology="newtonian") leaves '
+                "it out, or run the scene with ck.simulate"
+            )
+        return
     is_limited = scene.effect(TensionLimit) is not None
     if scene.meniscus.slips and is_limited and not scene.interface.is_flat:
         raise PlanError(
@@ -254,7 +303,7 @@ def _check_rheology(made: Plan) -> None:
 
 def _check_limits(common: _Common) -> None:
     """Refuse limits of a film whose viscosity is no parameter: the kernel would have none."""
-    if common.free.viscosity:
+    if common.free.viscosity or is_rheological(common.plan.scene):
         return
     for effect in common.plan.scene.effects:
         if isinstance(effect, TensionLimit | ShearLimit):
@@ -269,9 +318,9 @@ def can_cavitate(scene: SeparationScene) -> bool:
     """Whether the film of a scene may have a cavity that is remembered.
 
     One between discs may in any case; one on another face where the scene has a `TensionLimit`, as
-    it takes a grid.
+    it takes a grid. None that is known slips, or follows pressure and shear.
     """
-    if scene.effect(ViscousForce) is None:
+    if scene.effect(ViscousForce) is None or is_rheological(scene) or scene.meniscus.slips:
         return False
     if on_face(scene):
         return scene.effect(TensionLimit) is not None

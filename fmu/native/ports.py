@@ -20,6 +20,7 @@ from ...separation.effects.viscous import TensionLimit, ViscousForce, keeps_radi
 from ...separation.face.shape import on_face
 from ..framework.places import read
 from ..framework.ports import NATIVE_STEPS, STEP_LIMIT, Port, Value
+from ..slaves.rheology import is_rheological
 from ..slaves.stiction_mass import PLACES
 from ..slaves.tension import TENSIONS, tension_values
 from .film import can_cavitate, free_liquid
@@ -116,16 +117,26 @@ def _bounded(port: Port, scene: SeparationScene, lowest: float, model: Model) ->
         return evolve(port, exclusive=False, minimum=low, maximum=port.start if held else None)
     if model == "stiction-force" and port.name == "h":
         return evolve(port, exclusive=False, minimum=lowest)
-    is_limited = not on_face(scene) and scene.effect(ViscousForce) is not None
-    if port.name in ("dp_cav", "tau_lim") and not is_limited:
+    if port.name in {"dp_cav", "tau_lim"} - _limits(scene):
         return evolve(port, maximum=0.0)  # there is nothing to limit, but a master asks for them
     return port
+
+
+def _limits(scene: SeparationScene) -> set[str]:
+    """Limits of the film that are parameters; that of one which is in its tables is none."""
+    if on_face(scene) or scene.effect(ViscousForce) is None or is_rheological(scene):
+        return set()
+    if not scene.meniscus.slips:
+        return {"dp_cav", "tau_lim"}
+    return {"dp_cav"} if scene.interface.is_flat else set()
 
 
 def _absent(prepared: PreparedScene[SeparationScene], model: Model) -> set[str]:
     """Parameters that mean nothing for a scene, or that its tables have fixed."""
     viscosity, surface_tension = free_liquid(prepared)
     absent = set[str]()
+    if is_rheological(prepared.scene) and model == "stiction-mass":
+        absent |= {"dp_cav", "tau_lim"}
     if not viscosity:
         absent |= {"eta"} if model == "stiction-force" else {"eta", "dp_cav", "tau_lim"}
     if not surface_tension:
@@ -152,6 +163,8 @@ def start_of(
     own = read(PLACES, scene, prepared.liquid) | tension_values(scene.effect(TensionLimit))
     values: dict[str, Value] = {name: own[of] for name, of in named.items()}
     viscosity, surface_tension = free_liquid(prepared)
+    if is_rheological(scene):  # a limit is in the tables
+        values |= dict.fromkeys((*TENSIONS, "tau_lim"), 0.0)
     return values | {"eta": viscosity, "gamma": surface_tension}
 
 
@@ -178,5 +191,6 @@ def check_free(ports: tuple[Port, ...], model: Model, given: Mapping[str, Value 
                 value,
                 "be left out: the FMU has no laws of this liquid over the temperature",
                 hint="take a liquid with laws, and effects that are proportional to its viscosity "
-                "or its surface tension, without vapour; or build it at this temperature",
+                "or its surface tension, without vapour, and a rheology that is one of stress or "
+                "of the rate of shear alone; or build it at this temperature",
             )

@@ -39,11 +39,15 @@ __all__ = [
     "PocketSides",
     "PowerCurve",
     "Rate",
+    "Ratio",
+    "Rheology",
     "RingCavity",
     "Rings",
     "Scale",
+    "Scaling",
     "Series",
     "Sides",
+    "Stretch",
     "Table",
     "Unloading",
 ]
@@ -110,6 +114,51 @@ class Law(Record):
     table: Table = part(Table, "force")
 
 
+class Scaling(IntEnum):
+    """Argument of a rheology where the viscosity at rest is another one: none, speed, stress."""
+
+    NONE = 0
+    SPEED = 1
+    STRESS = 2
+
+
+@frozen(kw_only=True)
+class Ratio(Record):
+    """Logarithm of a ratio of forces over ln h and a speed: quintic splines of even spacing."""
+
+    unit: Table = part(Table, "logarithm of one over the speed that is a unit [m/s], over the gap")
+    has_pole: bool = flag("whether that speed is the fastest: r stands for r/(1 - r)")
+    fade: float = non_negative("power of the speed that it falls with towards rest [-]")
+    end: float = real("logarithm of the fastest speed")
+    first_gap: float = real("ln h of the first node")
+    per_gap: float = positive("nodes in a unit of ln h")
+    gaps: int = whole("of coefficients over ln h, four more than nodes", 10, 1000)
+    first_speed: float = real("logarithm of the slowest speed")
+    per_speed: float = positive("nodes in a unit of the logarithm of the speed")
+    speeds: int = whole("of coefficients over that, four more than nodes", 10, 10_000)
+    coefficient: tuple[float, ...] = column("coefficients of the splines, those of a gap together")
+    checked: ClassVar[bool] = True
+
+
+@frozen(kw_only=True)
+class Stretch(Record):
+    """Ratios of the force of a film between gaps at which it has a kink."""
+
+    high: float = positive("gap at which it ends [m]")
+    opening: Ratio = part(Ratio, "force over that at the viscosity at rest")
+    closing: Ratio | None = maybe(Ratio, "the same while it closes, if that is not the same")
+    cavity: Ratio | None = maybe(Ratio, "truncated over full force, from inception on")
+
+
+@frozen(kw_only=True)
+class Rheology(Record):
+    """A film whose viscosity follows pressure and shear, over one of the viscosity at rest."""
+
+    scaling: Scaling = member_of(Scaling, "what it is a function of")
+    viscosity: float = positive("viscosity at rest that it was made of [Pa.s]")
+    stretches: tuple[Stretch, ...] = several(Stretch, "in the order of their gaps", most=4, least=1)
+
+
 @frozen(kw_only=True)
 class Film(Record):
     """A film: its forces, and how far it reaches."""
@@ -121,6 +170,7 @@ class Film(Record):
     shape: Table = part(Table, "square of the radius between flats, height less gap under a sphere")
     rim_square: float = non_negative("square of the rim for a cavity [m2]; 0: it can have none")
     volume: float = non_negative("volume for a cavity [m3]")
+    rheology: Rheology | None = maybe(Rheology, "of a liquid that is not Newtonian")
 
 
 @frozen(kw_only=True)

@@ -5,6 +5,7 @@ deforming       The variables of ``deforming-mass`` and ``deforming-force``: fil
                 that deform.
 film_travel     Impulses of a film over a change of its gap, and the time of its rupture.
 moving_travel   The same of a film whose force, end or volume depends on the speed.
+rheology        Rheology of the liquid and its slip, and the parameters that stand for them.
 tension         Tension limit of a scene, and the parameters that stand for it.
 wetting         Dynamic wetting of a scene, and the parameters that stand for it.
 stiction_force  The FMU ``stiction-force``: a liquid film for a tool that owns the mass; motion in,

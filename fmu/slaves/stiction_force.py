@@ -29,6 +29,7 @@ from ..framework.slave import PortSlave
 from . import stiction_mass
 from .film_travel import Travel, travel
 from .moving_travel import is_moving, moving_travel
+from .rheology import RHEOLOGY
 from .tension import TENSIONS
 from .wetting import WETTING
 
@@ -49,7 +50,8 @@ _LAW = ("gamma", "theta1", "theta2", "meniscus_law", "weight", "rho")
 _END = ("v", "eta", "slip", "slip_from", "a_break", "n_Ca")
 _MENISCUS = ("h", *_FILM, *_LAW, *_END)
 _MOVED = ("gamma", "theta1", "theta2", "meniscus_law", "slip", "slip_from", "trouton")
-_VISCOUS = (*_MOTION, *_FILM, "eta", *TENSIONS, "tau_lim", *_MOVED, "a_break", "n_Ca")
+_LIMITS = (*TENSIONS, "tau_lim", *RHEOLOGY)
+_VISCOUS = (*_MOTION, *_FILM, "eta", *_LIMITS, *_MOVED, "a_break", "n_Ca")
 _ALL = tuple(dict.fromkeys((*_VISCOUS, *_MENISCUS)))
 _KEPT = (
     "h0",
@@ -63,11 +65,11 @@ _KEPT = (
     "V",
     "N",
     "meniscus_law",
-    *TENSIONS,
-    "tau_lim",
+    *_LIMITS,
     *WETTING,
 )
 _DOUBT = 0.2  # coupling error beyond which the flag is raised
+_SLOW = 1e-9  # speed [m/s] at which a liquid is as at rest: one that thins is stiffest there
 _SAME = 1e-9  # gaps closer than this, relatively, are one
 _ENDLESS = sys.float_info.max  # a step without bound: hosts choke on infinity
 
@@ -77,6 +79,7 @@ _GROUPS = {
     "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
     "motion": ("m_ref", "exchange"),
     "limits": (*TENSIONS, "tau_lim"),
+    "rheology": RHEOLOGY,
     "wetting": WETTING,
 }
 
@@ -207,7 +210,7 @@ class StictionForce(PortSlave):
         rest = {"m": 1.0, "v0": 0.0, "k_s": 0.0, "h_min": 0.0, "h_rel": 2.0 * start}
         self.plan = plan(stiction_mass.scene_of(self.values | rest), Accuracy())
         film = self.plan.film
-        self.memory = _Memory(start, film.damping(start), film.static_force(start))
+        self.memory = _Memory(start, film.damping(start, _SLOW), film.static_force(start))
         self.values.update(
             J=0.0,
             J_m=0.0,
@@ -340,7 +343,7 @@ class StictionForce(PortSlave):
             return _Memory(gap, 0.0, 0.0, fraction, True)
         now = self.plan.film_with(fraction)
         static = done.last if now is film else now.static_force(gap)
-        return _Memory(gap, now.damping(gap), static, fraction, False, done.cavity)
+        return _Memory(gap, now.damping(gap, _SLOW), static, fraction, False, done.cavity)
 
     def _breaks(self, film: Film, done: Travel) -> bool:
         """Whether a film that was whole is broken at the end of a step."""

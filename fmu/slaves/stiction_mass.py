@@ -41,6 +41,17 @@ from ..framework.ports import (
     tolerance,
 )
 from ..framework.slave import PortSlave
+from .rheology import (
+    RHEOLOGY,
+    RHEOLOGY_PORTS,
+    SLIP_PLACES,
+    check_rheology,
+    has_rheology,
+    is_rheological,
+    rheology_values,
+    with_laws,
+    with_rheology,
+)
 from .tension import TENSIONS, as_written, tension_limit, tension_values
 from .wetting import WETTING, WETTING_PORTS, check_wetting, wetting_effects, wetting_values
 
@@ -60,7 +71,7 @@ _SHAPE = ("h0", "R", "V", "N")
 _MENISCUS = (*_SHAPE, "gamma", "theta1", "theta2", "meniscus_law", "weight", "rho")
 # Beside the viscous force the speed adds what it changes of the angles of the meniscus.
 _MOVED = ("gamma", "theta1", "theta2", "meniscus_law", "slip", "slip_from", "trouton")
-_VISCOUS = (*_SHAPE, "v0", "eta", *TENSIONS, "tau_lim", *_MOVED)
+_VISCOUS = (*_SHAPE, "v0", "eta", *TENSIONS, "tau_lim", *RHEOLOGY, *_MOVED)
 _ALL = tuple(dict.fromkeys((*_MENISCUS, *_VISCOUS)))
 
 
@@ -69,6 +80,7 @@ _GROUPS = {
     "liquid": ("V", "N", "eta", "gamma", "theta1", "theta2", "meniscus_law", "h_break", "rewet"),
     "motion": ("m", "v0", "k_s", "h_rel", "h_min"),
     "limits": (*TENSIONS, "tau_lim"),
+    "rheology": RHEOLOGY,
     "wetting": WETTING,
     "numerics": ("rtol", "max_steps"),
 }
@@ -214,6 +226,7 @@ _PORTS = (
         "dp_hold", "Pa", "ambient pressure less that in the cavity; 0: as dp_inception", 0.0, "bar"
     ),
     size_port("tau_lim", "Pa", "limiting shear strength of the liquid; 0: no limit", 0.0, "MPa"),
+    *RHEOLOGY_PORTS,
     *WETTING_PORTS,
     tolerance(1e-8),
     step_limit(PYTHON_STEPS),
@@ -247,6 +260,7 @@ PLACES: Mapping[str, Place] = {
             MeniscusLaw.PUBLISHED: AsPublished(radius="disc"),
         },
     ),
+    **SLIP_PLACES,
     "tau_lim": Place("strength", ShearLimit, nothing=0.0),
     "h_break": Place("gap", Rupture, nothing=0.0),
     "rho": Place("interface.meniscus.liquid.density", nothing=0.0),
@@ -267,8 +281,9 @@ _FILM = SeparationScene(
 """Scene whose fields the parameters fill in."""
 
 
-_OFF = {"h_break": 0.0} | {port.name: port.start for port in WETTING_PORTS}
-"""What wetting depends on, where it is off."""
+_OFF = {"h_break": 0.0}
+_OFF |= {port.name: port.start for port in (*RHEOLOGY_PORTS, *WETTING_PORTS)}
+"""What rheology and wetting depend on, where they are off."""
 
 
 def check_gaps(values: Mapping[str, Any]) -> None:
@@ -280,6 +295,7 @@ def check_gaps(values: Mapping[str, Any]) -> None:
         Naming the two.
     """
     check_wetting({name: values.get(name, start) for name, start in _OFF.items()})
+    check_rheology({name: values.get(name, start) for name, start in _OFF.items()})
     tension_limit({name: values.get(name, 0.0) for name in (*TENSIONS, "tau_lim")})
     start = values["h0"]
     if values.get("h_rel", math.inf) <= start:
@@ -304,8 +320,18 @@ def scene_of(values: Mapping[str, Any]) -> SeparationScene:
     values = {**_OFF, **values}
     law = values["meniscus_law"] if values["gamma"] > 0.0 else MeniscusLaw.NONE
     made = write(PLACES, _FILM, {**values, "meniscus_law": MeniscusLaw(law)})
+    if has_rheology(values):
+        made = _with_laws(made, values)
     more = (*filter(None, (limit,)), *wetting_effects(values))
     return evolve(made, effects=(*made.effects, *more)) if more else made
+
+
+def _with_laws(scene: SeparationScene, values: Mapping[str, Any]) -> SeparationScene:
+    """Scene whose liquid has the laws of the parameters, all of which its film follows."""
+    interface, meniscus = scene.interface, scene.meniscus
+    liquid = with_laws(meniscus.liquid, values)
+    interface = evolve(interface, meniscus=evolve(meniscus, liquid=liquid))
+    return with_rheology(evolve(scene, interface=interface))
 
 
 def mass_values(scene: SeparationScene) -> dict[str, Any]:
@@ -327,16 +353,12 @@ def mass_values(scene: SeparationScene) -> dict[str, Any]:
     against = [reason for reason, holds in needs.items() if not holds]
     if against:
         raise PlanError(f"the Python FMU stiction-mass needs {'; '.join(against)}; {_CURE}")
-    viscous, given = scene.effect(ViscousForce), scene.meniscus.liquid
-    if viscous is not None and viscous.rheology != "newtonian" and not given.is_newtonian:
-        raise PlanError(
-            "the Python FMU stiction-mass has one viscosity at all pressures and rates of shear; "
-            'give ViscousForce(rheology="newtonian"), or run the scene with ck.simulate'
-        )
     settled = _same_form(scene)
     liquid = scene.meniscus.liquid.at(scene.temperature)
     values = read(PLACES, settled, liquid) | tension_values(scene.effect(TensionLimit))
     values |= wetting_values(scene)
+    if is_rheological(scene):
+        values |= rheology_values(scene)
     numbers = {port.name: port.read(values.get(port.name, port.start)) for port in PORTS}
     lost = differences(settled, scene_of(numbers), _NOT_HELD)
     if lost:
@@ -366,7 +388,7 @@ def _same_form(scene: SeparationScene) -> SeparationScene:
         if isinstance(effect, TensionLimit):
             effects += filter(None, (as_written(effect),))
         elif isinstance(effect, ViscousForce):
-            effects.append(evolve(effect, rheology=None))  # of the one viscosity of the FMU
+            effects.append(evolve(effect, rheology="all" if is_rheological(scene) else None))
         elif not (is_exact and effect == Rupture()):  # the exact bridge breaks by itself
             effects.append(effect)
     interface = evolve(

@@ -606,6 +606,7 @@ def test_press_refuses_an_impossible_hardness(hardness, parts):
         ({"pixel_size": (1e-8, 1e-8, 1e-8)}, ("Heights.pixel_size must be one length or a pair",)),
         ({"stack": None}, ("must be a",)),
         ({"stack": 210e9}, ("press(stack) must be a Stack or a Material",)),
+        ({"pixel_size": np.ones((4, 4))}, ("press(pixel_size)", "shape (4, 4)", "the order is")),
         ({"stack": "steel"}, ("one of the library is ck.load_material('steel')",)),
         ({"rtol": 0.0}, ("Accuracy.rtol must lie between 1e-11 and 0.1, got 0.0",)),
         ({"threads": 0}, ("Accuracy.threads must be a whole number of at least 1, got 0",)),

@@ -391,3 +391,40 @@ def test_balls_from_a_lens_to_a_tip_are_plausible(radius, modulus, force, width)
     given = scene(ck.Paraboloid(radius=radius), solid=solid, width=width, periodic=False)
     _, out = solved(evolve(given, loading=ck.Pressing(force=force)))
     assert out == set()
+
+
+@pytest.mark.parametrize(
+    ("sides", "periodic", "reached"),
+    [
+        ((2.6, 2.6), False, False),
+        ((1.8, 1.8), False, True),
+        ((1.8, 2.6), False, True),
+        ((1.8, 2.6), "x", False),  # repeats along x, ends along y
+        ((2.6, 1.8), "x", True),
+        ((1.8, 2.6), "y", True),
+        ((2.6, 1.8), "y", False),
+        ((1.8, 1.8), True, False),
+    ],
+)
+def test_a_ball_that_is_wider_than_its_window_is_noticed(sides, periodic, reached):
+    """By the contact radius of Hertz, ``a^3 = 3 F R/(4 E*)``: the grid does not show it."""
+    radius, force = 1e-3, 1e-4
+    soft = ck.Material(young_modulus=1e9, poisson_ratio=0.3)
+    a = (0.75 * force * radius / soft.plane_strain_modulus) ** (1.0 / 3.0)
+    ball = scene(ck.Paraboloid(radius=radius), solid=soft, periodic=periodic,
+                 width=sides[0] * a, height=sides[1] * a)  # fmt: skip
+    with warnings.catch_warnings(action="ignore"):
+        result = ck.solve(
+            ck.plan(evolve(ball, loading=ck.Pressing(force=force)), ck.Accuracy(grid=(39, 27)))
+        )
+    number = numbers(result).get("load at the edge of the window over the load")
+    assert (number is not None and number.is_valid is False) == reached
+    assert (number is None) == (periodic is True)
+    if sides == (1.8, 1.8) and reached:  # some percent of what the outermost pixels cover
+        assert 0.02 < number.value < 0.13
+        assert result.contact_area < 0.99 * np.pi * a**2 < 3.24 * a**2
+
+
+def test_a_punch_ends_at_the_edge_of_its_window():
+    _, out = solved(scene(ck.Flat(), periodic=False), 16)
+    assert not any("edge of the window" in name for name in out)

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+import contactkit as ck
 from contactkit.elasticity.creep_symbol import common_times
 from contactkit.elasticity.prony import (
     PronySeries,
@@ -91,12 +92,33 @@ def test_a_fit_finds_the_moduli_of_a_table():
     assert far.error <= far.largest_error
 
 
+def test_a_table_in_texts_is_that_in_numbers():
+    table = [1.0, 10.0], ["1.1 MPa", 2.1e6], ["200 kPa", "0.2 MPa"]
+    assert fit_prony(*table).error == fit_prony([1, 10], [1.1e6, 2.1e6], [2e5, 2e5]).error
+
+
+def test_a_table_that_no_solid_has_is_pointed_out():
+    storage, loss = storage_and_loss(PronySeries(1e6, [9e6], [1.0]), OMEGA)
+    given = {"name": "gel", "poisson_ratio": 0.5}
+    made = ck.ViscoelasticMaterial.from_table(OMEGA, storage, loss, **given)
+    assert made.instantaneous.young_modulus == pytest.approx(1e7, rel=1e-6)
+    with pytest.warns(ck.ValidityWarning, match="Prony series over the modulus.*the order is"):
+        ck.ViscoelasticMaterial.from_table(storage, loss, OMEGA, **given)
+    noise = 1.0 + 0.1 * np.random.default_rng(6).standard_normal((2, OMEGA.size))
+    ck.ViscoelasticMaterial.from_table(OMEGA, *(noise * (storage, loss)), **given)
+
+
 @pytest.mark.errors
 @pytest.mark.parametrize(
     ("table", "said"),
     [
         (([1.0, -1.0], [1.0, 1.0], [1.0, 1.0]), "frequency"),
-        (([1.0, 2.0], [1.0, 0.0], [1.0, 1.0]), "storage"),
+        (
+            ([1.0, 2.0], [1.0, 0.0], [1.0, 1.0]),
+            r"storage\) must be positive.*got 0.0.*index 1",
+        ),
+        (([1.0, 2.0], [1.0, 1.0], ["1 MPa", "1 m"]), r"loss\).*converts to Pa"),
+        (([1.0, 2.0], np.ma.masked_greater([1.0, 2.0], 1.0), [1.0, 1.0]), "without a mask"),
         (([1.0, 2.0], [1.0, 1.0], [1.0]), "one length"),
         (([], [], []), "frequency"),
         ((OMEGA, OMEGA**2 / (1.0 + OMEGA**2), OMEGA / (1.0 + OMEGA**2)), "plateau at low"),

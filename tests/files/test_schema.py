@@ -297,7 +297,32 @@ def test_texts_say_the_unit_and_an_example():
 
 UNITS = ["", "um", "nm", "m", "Å", "mm2", "m^3", "L", "ml", "Pa", "MPa", "bar", "psi", "N/mm2"]
 UNITS += ["degC", "°C", "K", "mrad", "deg", "°", "mN/m", "J/m2", "1/um2", "m-2", "%", "1", "kg"]
-UNITS += ["g", "kHz", "1/s", "s^-1", "um/um", "parsec"]
+UNITS += ["g", "kHz", "1/s", "s^-1", "um/um", "parsec", "mm²", "m³", "s⁻¹", "N m⁻¹", "kg m-1 s-2"]
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("3 m s-1", "m/s", 3.0),
+        ("2 mPa s", "Pa.s", 2e-3),
+        ("7 kg / m³", "kg/m3", 7.0),
+        ("5 N mm⁻²", "Pa", 5e6),
+        ("4 GPa⁻¹", "1/Pa", 4e-9),
+    ],
+)
+def test_blanks_are_products_and_powers_may_be_raised(text, unit, value):
+    assert parse_quantity(text, unit) == pytest.approx(value, rel=1e-14)
+    assert re.search(quantity_pattern(unit), text)
+
+
+@pytest.mark.errors
+@pytest.mark.parametrize(
+    ("text", "cure"),
+    [("1 micron", "1 micron is 1 um"), ("1 W/(m K)", "without brackets"), ("3 m s-1", "converts")],
+)
+def test_units_of_elsewhere_are_refused_with_their_cure(text, cure):
+    with pytest.raises(DescriptionError, match=cure):
+        parse_quantity(text, "1/s" if "s-1" in text else "m")
 
 
 @pytest.mark.parametrize("unit", ["m", "m3", "Pa", "K", "rad", "N/m", "1/m2", "-", "kg", "Hz"])
@@ -314,5 +339,5 @@ def test_texts_of_one_symbol_are_those_that_are_read(unit, number, space, given)
     except DescriptionError:
         is_right = False
     is_valid = re.search(quantity_pattern(unit), text) is not None
-    if is_right or not re.search(r"[/.*]", given):
+    if is_right or not re.search(r"[/.* ]", given):
         assert is_valid == is_right

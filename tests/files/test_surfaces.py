@@ -278,7 +278,7 @@ def test_an_index_that_is_wrong_is_refused(container, change, parts):
 @pytest.mark.errors
 def test_files_that_are_no_container_are_refused(container, tmp_path):
     (tmp_path / "text.zip").write_text("nothing")
-    refuses(lambda: ck.read_surfaces(tmp_path / "text.zip"), "be a zip archive")
+    refuses(lambda: ck.read_surfaces(tmp_path / "text.zip"), "be a ZIP file", "ck.Measured(path")
     refuses(lambda: ck.read_surfaces(tmp_path / "none.zip"), "none.zip")
     empty = packed(tmp_path / "empty.zip", {"a.txt": b""}, {})
     refuses(lambda: ck.read_surfaces(empty), "hold index.json or meta.yml", "a.txt")
@@ -288,6 +288,8 @@ def test_files_that_are_no_container_are_refused(container, tmp_path):
             tmp_path / "b.zip", whole, {"topography0.nc": whole["topography0.nc"][:cut]}
         )
         refuses(lambda broken=broken: ck.read_surfaces(broken), "topography0.nc")
+    measured = ck.Measured(path=container)
+    refuses(measured.as_heights, "be one map", "it is a container: ck.read_surfaces(")
     refuses(lambda: ck.read_surfaces(container, line_scans="kept"), "be 'refused' or 'left out'")
 
 
@@ -308,8 +310,9 @@ def test_a_damaged_netcdf_file_never_ends_in_another_error(container, tmp_path):
     [
         ({}, ("be surfaces by their names",)),
         (PERIODIC, ("be surfaces by their names",)),
-        ({"flat": ck.Flat()}, ("surfaces['flat']", "have heights of its own", "surface_heights")),
-        ({"number": 3.0}, ("have heights of its own",)),
+        ({"flat": ck.Flat()}, ("surfaces['flat']", "heights of its own", "surface_heights")),
+        ({"number": 3.0}, ("heights of its own",)),
+        ({"array": np.zeros((3, 4))}, ("got 'an array of shape (3, 4)'", "ck.Heights(heights=")),
     ],
 )
 def test_what_is_no_surface_is_not_written(tmp_path, surfaces, parts):

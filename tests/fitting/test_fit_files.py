@@ -32,6 +32,35 @@ def test_csv_files_with_units_in_their_head(tmp_path, separator):
     assert (found.units, found.name, found.noise) == (("um", "uN"), "pull 1", "1 %")
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        "gap [µm];force [mN];sd [uN]\r\n1,5;30,25;300\r\n2,5;20,5;400\r\n".encode("cp1252"),
+        "gap (µm)\tforce (mN)\tsd (uN)\n1.5\t30.25\t300\n2.5\t20.5\t400\n".encode("utf-16"),
+        b"gap / um,force / mN,sd / uN\r1.5,30.25,300\r2.5,20.5,400\r",
+        b"# rig 7\n# gap [um] force [mN] sd [uN]\n1.5 30.25 300\n2.5 20.5 400\n",
+    ],
+)  # fmt: skip
+def test_files_as_spreadsheets_instruments_and_numpy_write_them(tmp_path, content):
+    path = tmp_path / "földer.csv"
+    path.write_bytes(content)
+    found = ck.read_measured_curve(path, "gap", "force", columns={"noise": "sd"})
+    assert found.x == pytest.approx([1.5e-6, 2.5e-6], rel=1e-14)
+    assert found.y == pytest.approx([0.03025, 0.0205], rel=1e-14)
+    assert found.deviation("N") == pytest.approx([3e-4, 4e-4], rel=1e-14)
+
+
+@pytest.mark.parametrize("unit", ["degC", "°C"])
+def test_temperatures_are_in_degrees_celsius_if_the_head_states_it(tmp_path, unit):
+    path = tmp_path / "a.csv"
+    path.write_text(f"temperature [{unit}],release_time [ms]\n20,3\n80,1\n")
+    found = ck.read_measured_curve(path, "temperature", "release_time", shift="0.5 K")
+    assert found.x.tolist() == [293.15, 353.15]
+    assert found.nuisance("shift", ("K", "s")) == 0.5
+    wrong = ck.read_measured_curve(path, "temperature", "release_time", shift="0.5 degC")
+    refuses(lambda: wrong.nuisance("shift", ("K", "s")), "shift", "a difference", "'0.5 K'")
+
+
 @pytest.mark.slow
 def test_arrays_frames_datasets_and_results():
     pd, xr = pytest.importorskip("pandas"), pytest.importorskip("xarray")
@@ -72,13 +101,21 @@ def test_tables_that_cannot_be_read_are_refused(tmp_path):
         return lambda: ck.read_measured_curve(path, "gap", "force", **more)
 
     refuses(read("gap [um],force\n1,2\n"), "units of 'force'", "be stated", "force [um]")
-    refuses(read("gap [um],load [N]\n1,2\n"), "column", "be one of a", "columns={'force'")
-    refuses(read("gap [um];force [N]\n1,5;2\n"), "gap, row 2", "a decimal comma?")
+    refuses(read("gap [um],load [N]\n1,2\n"), "column", "be a column of a", "columns={'force'")
+    refuses(read('gap [um],force [N]\n"1,5",2\n'), "gap, row 2", "a decimal comma?")
+    refuses(read("gap [um];force [N]\n1,5;2.5\n"), "gap, row 2", "a decimal comma?")
+    refuses(read("gap [um],gap [nm],force [N]\n1,2,3\n"), "column", "be there once in a", "rename")
+    refuses(read("gap,force\num,N\n1,2\n", units={"gap": "m", "force": "N"}), "as 'gap [um]'")
+    refuses(read("1,2\n3,4\n"), "have a head", "'gap [um],force [mN]'")
+    refuses(
+        lambda: ck.read_measured_curve(tmp_path / "b.csv", "gap", "force"), "a file that exists"
+    )
+    noise = {"columns": {"noise": "sd"}}
+    refuses(read("gap [m],force [N],sd [m]\n1,2,3\n", **noise), "units['noise']", "convert to N")
     refuses(read("gap [um],force [N]\n1,2\n3\n"), "have 2 cells", "row 3 has 1")
     refuses(read("gap [um],force [N]\n"), "have a head and at least one row")
     refuses(read("gap [um],force [N]\n1,nan\n"), "values must be finite numbers")
     refuses(read("gap [um],force [N]\n1,2\n", units={"gab": "m"}), "units", "be of gap, force")
-    refuses(lambda: ck.read_measured_curve(tmp_path / "b.csv", "gap", "force"), "be a CSV file")
 
 
 def test_force_curves_of_microscopes(tmp_path):

@@ -128,3 +128,35 @@ def test_curves_that_are_none_of_a_cantilever_are_not_written(tmp_path):
     sought = curve(stiffness=ck.Range(0.01, 1.0))
     refuses(lambda: ck.write_force_curve(path, sought), "stiffness", "be a number")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_deflection_in_amperes_needs_its_own_unit(tmp_path, caplog):
+    """Text of NT-MDT: height [nm] and deflections [nA], with decimal commas."""
+    heights, currents = (-24.0, -16.0, -8.0, 0.0), (1.0, 1.5, 2.0, 3.0)
+    file = tmp_path / "fd.txt"
+    rows = [f"{z}\t{i}\t{2 * i}" for z, i in zip(heights, currents, strict=True)]
+    file.write_text("\n".join(rows).replace(".", ",") + "\n")
+    k = {"spring constant": "0.05 N/m"}
+    found = ck.read_force_curve(file, instrument=k | {"sensitivity": "20 nm/nA"})
+    assert found.y == pytest.approx([-0.05 * 20e-9 * 2 * i for i in currents])
+    refuses(
+        lambda: ck.read_force_curve(file, instrument=k | {"sensitivity": "20 nm/V"}),
+        "sensitivity", "converts to m/A",
+    )  # fmt: skip
+    refuses(lambda: ck.read_force_curve(file), "state its sensitivity, spring constant")
+    assert not caplog.records
+
+
+@pytest.mark.errors
+def test_what_cannot_be_read_is_named_without_a_traceback(tmp_path, caplog):
+    file = ck.write_force_curve(tmp_path / "a.h5", curve(), spring_constant=K)
+    refuses(lambda: ck.read_force_curve(tmp_path / "b.jpk-force"), "force curve", "exists")
+    refuses(
+        lambda: ck.read_force_curve(file, instrument={"spring constant": 0.1}),
+        "instrument", "be left out", "stiffness=",
+    )  # fmt: skip
+    (tmp_path / "c.csv").write_text("gap [um],force [mN]\n1,2\n")
+    refuses(lambda: ck.read_force_curve(tmp_path / "c.csv"), "that afmformats reads")
+    assert not caplog.records
+    with pytest.raises(TypeError, match="'sements'; did you mean"):
+        ck.read_force_curve(file, sements="approach")

@@ -163,3 +163,35 @@ def sanitized_kernel(shelf, sources, fmi):
         return shelf.folder(f"sanitized kernel {fmi}", make) / "kernel.so"
     except subprocess.CalledProcessError as error:
         pytest.skip(f"the compiler has no sanitizers: {error.stderr[:200]}")
+
+
+def compile_probe(folder):
+    """Write the kernel to a folder, and compile a program that asks it for forces."""
+    write_sources(folder)
+    files = [path for path in folder.glob("*.c") if not path.name.startswith(("fmi2", "fmi3"))]
+    compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}", "-O0")
+
+
+def probed(probe, tables, folder, points, parameters):
+    """Numbers of the program at gaps and speeds, a column of each.
+
+    Fixed force, its slope, viscous force, its slopes, and the limit; `parameters` are viscosity,
+    surface tension, tension and strength.
+    """
+    import numpy as np
+
+    from contactkit.fmu.native.data import contents_of, data_file
+    from contactkit.fmu.native.sources import layout
+    from contactkit.fmu.slaves.stiction_mass import PORTS
+
+    start = {port.name: port.start for port in PORTS}
+    numbers = contents_of("stiction-mass", PORTS[:1], start, tables).numbers()
+    (folder / "film.bin").write_bytes(data_file("g", layout(), numbers))
+    said = subprocess.run(
+        [str(probe), str(folder), *map(repr, parameters)],
+        check=True,
+        capture_output=True,
+        text=True,
+        input="".join(f"{gap!r} {speed!r}\n" for gap, speed in points),
+    ).stdout
+    return np.array([[float(word) for word in line.split()] for line in said.splitlines()]).T

@@ -85,6 +85,9 @@ HOLEY = {
     "b.csv": ("0;;2,0\n3;4;5,5\n", SIZE),
     "c.tsv": ("0\t\t2\n3\t4\t5.5\n", SIZE),
     "d.txt": ("0 nan 2\n3 4 5.5\n", SIZE),
+    "g.txt": ("0 Bad 2\n3 4 5.5\n", SIZE),
+    "h.csv": ("0,--,2\n3,4,5.5\n", SIZE),
+    "i.csv": ("0;***;2,0\n3;4;5,5\n", SIZE),
     "e.xyz": ("0 0 0\n2 0 2\n0 2 3\n1 2 4\n2 2 5.5\n", {"unit": "nm"}),
     "f.npy": (np.where(NUMBERS == 1.0, np.nan, NUMBERS), SIZE),
 }
@@ -157,9 +160,11 @@ BAD_TEXTS = {
     "overflow": ("1 2\n3 1e999\n", r"finite in every pixel"),
     "one row": ("1 2 3\n", r"at least 2 x 2 pixels in a\.txt, got 'shape \(1, 3\)'; a profile"),
     "one column": ("1\n2\n3\n", r"at least 2 x 2 pixels.*shape \(3, 1\)"),
-    "nothing": ("", r"heights must be in a\.txt, got 'none'"),
-    "only comments": ("# 1 2\n# 3 4\n", r"heights must be in a\.txt"),
+    "not measured": ("1 Bad\n3 4\n", r"line 1, column 2\), got 'Bad'; say what the holes are"),
+    "nothing": ("", r"path must hold numbers, got .*a\.txt'; it has none"),
+    "only comments": ("# 1 2\n# 3 4\n", r"path must hold numbers"),
     "binary": (b"\xff\xfe\x00\x81" * 20, r"path must be a text of numbers"),
+    "not UTF-8": (b"# H\xf6he\n1 2\n3 4\n", r"not in UTF-8 from byte 3 on: save it as that"),
 }
 
 

@@ -328,6 +328,12 @@ def test_a_trend_without_holes_is_the_same_as_with_none_of_them():
     np.testing.assert_allclose(same, found, atol=1e-13 * np.abs(HEIGHTS).max())
 
 
+def test_half_precision_is_refused():
+    """Heights of 50 nm are multiples of 60 nm there."""
+    with pytest.raises(DescriptionError, match=r"heights must be of float32.*float16.*convert"):
+        ck.Heights(heights=HEIGHTS.astype(np.float16), pixel_size=1e-6)
+
+
 @pytest.mark.parametrize("holes", ["masked", "fill"])
 def test_a_measured_map_with_holes_and_tilt_is_pressed_as_the_level_array(tmp_path, holes):
     lost = np.zeros(X.shape, dtype=bool)

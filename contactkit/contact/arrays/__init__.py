@@ -9,6 +9,7 @@ goes on reaches the host.
 press_maps   Entry point: maps of NumPy, PyTorch, CuPy ..., pressed on one solid.
 given        Input, checked: maps, loads, bound.
 result       Pressures, displacements, approaches, residuals, one for each map.
+validity     Slope, peak pressure and edges of the worst map.
 namespace    Array library, device and precision of the heights.
 operator     Displacement under pressures, and about its inverse, on one grid.
 problem      The dimensionless problem of all maps.

@@ -108,7 +108,11 @@ def checked_maps(
     largest, most = float(xp.max(xp.abs(h))), LARGEST if space.epsilon < 1e-10 else LARGEST_SINGLE
     if not largest < most:
         raise DescriptionError(
-            "press_maps(heights)", largest, f"be finite, and below {most:g}", unit="m"
+            "press_maps(heights)",
+            largest,
+            f"be finite, and below {most:g}",
+            unit="m",
+            hint="holes: any height there, and a hardness of 0",
         )
     if (mean_pressure is None) == (approach is None):
         raise DescriptionError(
@@ -149,11 +153,16 @@ def _as_array(space: Space, values: Any, name: str, unit: str) -> Any:
         )
     if isinstance(values, str):
         values = number_of(values, unit, name, "press_maps")
+    elif isinstance(values, list | tuple) and any(isinstance(one, str) for one in values):
+        values = [number_of(one, unit, name, "press_maps") for one in values]
     try:
         return space.take(values)
     except (TypeError, ValueError):
         raise DescriptionError(
-            f"press_maps({name})", type(values), "be a number or an array of them", unit=unit
+            f"press_maps({name})",
+            f"a {type(values).__name__}",
+            "be a number or an array of them, of one shape",
+            unit=unit,
         ) from None
 
 

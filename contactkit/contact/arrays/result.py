@@ -6,6 +6,8 @@ from typing import Any
 
 from attrs import field, frozen
 
+from ...validity import ValidityNumber
+
 __all__ = ["MapsResult"]
 
 
@@ -26,6 +28,8 @@ class MapsResult:
         Whether `kkt` is at most the tolerance.
     n_applications : array (...)
         Applications of the operator on the full grid.
+    validity : tuple of ValidityNumber
+        Slope, peak pressure and jump at the edges that repeat, of the worst map.
     """
 
     heights: Any = field(repr=False)
@@ -35,6 +39,7 @@ class MapsResult:
     kkt: Any
     converged: Any
     n_applications: Any
+    validity: tuple[ValidityNumber, ...] = field(default=(), repr=False)
 
     @property
     def _xp(self) -> Any:

@@ -25,8 +25,6 @@ __all__ = ["BarusViscosity", "PressureViscosity", "RoelandsViscosity"]
 # times that a number was meant in 1/GPa, or in 1/MPa.
 _STEEPEST = 1e-6  # [1/Pa]
 
-_POLE, _POLE_PRESSURE = 9.67, 1.96e8  # Roelands: minus the logarithm of the pole, and p_r [Pa]
-
 
 def _coefficient(owner: object, attribute: Attribute[Any], value: Any) -> None:
     """Refuse anything but a positive number; the hint suggests 1/GPa above 1e-6 1/Pa."""
@@ -153,16 +151,20 @@ class RoelandsViscosity(PressureViscosity):
         DescriptionError
             If the liquid is thinner than the pole that the law gives to all liquids.
         """
-        from ...lubrication.flow_laws.pressure_laws import Roelands
+        from ...lubrication.flow_laws.pressure_laws import (
+            POLE_LOGARITHM,
+            POLE_PRESSURE,
+            Roelands,
+        )
 
-        height = math.log(viscosity) + _POLE
+        height = math.log(viscosity) + POLE_LOGARITHM
         if not height > 0.0:
             raise DescriptionError(
                 "Liquid.viscosity",
                 viscosity,
-                f"exceed {math.exp(-_POLE):.3g} for the law of Roelands",
+                f"exceed {math.exp(-POLE_LOGARITHM):.3g} for the law of Roelands",
                 unit="Pa.s",
                 hint="it is meant for oils; take BarusViscosity(pressure_coefficient=...)",
             )
-        exponent = self.pressure_coefficient * _POLE_PRESSURE / height
-        return Roelands(viscosity=viscosity, exponent=exponent, pole_pressure=_POLE_PRESSURE)
+        exponent = self.pressure_coefficient * POLE_PRESSURE / height
+        return Roelands(viscosity=viscosity, exponent=exponent)

@@ -12,5 +12,6 @@ walls          Walls of an axisymmetric film: flats, paraboloid, any profile; ri
 squeeze        Pressure and force of a squeezed axisymmetric film of any law.
 closed_forms   Squeezed films in closed form: Scott, Barus, Vinogradova.
 on_grid        Squeezed film of any law on any face, in 2-D.
+unit_flow      Force of such a film, estimated from the flux of a Newtonian one.
 heating        Temperature rise of a film by its own shear.
 """

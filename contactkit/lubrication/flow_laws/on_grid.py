@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["FilmOnGrid", "solve_on_grid"]
+__all__ = ["FilmOnGrid", "cell_flux", "solve_from_flux", "solve_on_grid"]
 
 # Flux, over that which a cell takes up, below which a cell counts as stagnant: the mean over a cell
 # around a stagnation point is a quarter.
@@ -124,14 +124,76 @@ def solve_on_grid(
     True
     """
     height = checked_gap(face, gap)
-    film = _reduced_film(face, law, drop)
+    flux = _first_flux(face, law, height, rate)
+    limits = _Limits(drop, rtol, max_iterations, solver)
+    return _settled(face, law, (height, flux), rate, limits)
+
+
+def solve_from_flux(
+    face: Face,
+    law: FlowLaw,
+    gap: ArrayLike,
+    rate: ArrayLike,
+    flux: Array,
+    *,
+    rtol: float = 1e-8,
+) -> FilmOnGrid:
+    """Pressure of a full film whose flux is nearly known, as that of a Newtonian liquid is.
+
+    Parameters
+    ----------
+    face, law, gap, rate, rtol
+        See `solve_on_grid`.
+    flux : ndarray, shape (ny, nx)
+        Magnitude of the flux per width to begin with [m2/s].
+
+    Raises
+    ------
+    DescriptionError, InfeasibleError, ConvergenceError
+        See `solve_on_grid`.
+
+    Notes
+    -----
+    Beginning with the Newtonian flux saves a third of the linear solutions.
+
+    Examples
+    --------
+    >>> from contactkit.lubrication.flow_laws.power_law import PowerLaw
+    >>> from contactkit.lubrication.reynolds.face import rasterise
+    >>> from contactkit.scene.planforms import Rectangle
+    >>> face = rasterise(Rectangle(length=2e-3, width=1e-3), 16)
+    >>> law = PowerLaw(consistency=0.1, exponent=0.5)
+    >>> first = solve_on_grid(face, law, 1e-5, 1e-3)
+    >>> again = solve_from_flux(face, law, 1e-5, 1e-3, first.flux)
+    >>> again.iterations < first.iterations, round(again.force / first.force, 7)
+    (True, 1.0)
+    """
+    limits = _Limits(math.inf, rtol, 200, None)
+    return _settled(face, law, (checked_gap(face, gap), flux), rate, limits)
+
+
+class _Limits(NamedTuple):
+    """Drop of a cavity [Pa], tolerance and maximum number of iterations, linear solver."""
+
+    drop: float
+    rtol: float
+    max_iterations: int
+    solver: str | None
+
+
+def _settled(
+    face: Face, law: FlowLaw, begin: tuple[Array, Array], rate: ArrayLike, limits: _Limits
+) -> FilmOnGrid:
+    """Film whose conductivity agrees with its flux, from a gap [m] and a flux [m2/s]."""
+    height, flux = begin
+    film, rtol = _reduced_film(face, law, limits.drop), limits.rtol
     floor = np.abs(np.broadcast_to(np.asarray(rate, dtype=float), face.shape))
     floor = floor * (_STAGNANT * max(face.pixel_size))
-    logs = _conductivity(face, law, _first_flux(face, law, height, rate), height, None)
+    logs = _conductivity(face, law, np.maximum(flux, floor), height, None)
     mixing, before, n_blocked = Anderson(), math.inf, 0
-    for iteration in range(1, max_iterations + 1):
-        state = unchecked_pressure(film, np.exp(logs / 3.0), rate, solver=solver)
-        pressure, flux = _pressure(law, state), np.maximum(_flux(state), floor)
+    for iteration in range(1, limits.max_iterations + 1):
+        state = unchecked_pressure(film, np.exp(logs / 3.0), rate, solver=limits.solver)
+        pressure, flux = _pressure(law, state), np.maximum(cell_flux(state), floor)
         found = _conductivity(face, law, flux, height, pressure)
         missed, force = float(np.abs(found - logs).max()), _force(face, pressure)
         is_blocked = not math.isfinite(force)
@@ -192,7 +254,7 @@ def _force(face: Face, pressure: Array) -> float:
     return -float(pressure[face.loaded].sum()) * face.cell_area
 
 
-def _flux(state: GridFilmState) -> Array:
+def cell_flux(state: GridFilmState) -> Array:
     """Magnitude of the flux per width in each cell [m2/s], from those through its sides."""
     balance: Any = state.balance
     mesh, p, face = balance.mesh, state.pressure.ravel(), state.film.face
@@ -217,7 +279,7 @@ def _flux(state: GridFilmState) -> Array:
 def _result(
     law: FlowLaw, state: GridFilmState, height: Array, iterations: int, change: float
 ) -> FilmOnGrid:
-    face, pressure, flux = state.film.face, _pressure(law, state), _flux(state)
+    face, pressure, flux = state.film.face, _pressure(law, state), cell_flux(state)
     inside = face.loaded
     q, h = np.where(inside, flux, 0.0), np.where(inside, height, 1.0)
     gradient = np.asarray(law.gradient(q, h, np.where(inside, pressure, 0.0)))

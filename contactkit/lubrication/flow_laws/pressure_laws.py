@@ -13,7 +13,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from ...numerics.quadrature import gauss_legendre
 from ...units import si
@@ -24,7 +24,12 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["Barus", "PressureLaw", "Roelands"]
+__all__ = ["POLE_LOGARITHM", "POLE_PRESSURE", "Barus", "PressureLaw", "Roelands"]
+
+POLE_LOGARITHM = 9.67
+"""Minus the logarithm of the viscosity [Pa.s] at the pole of Roelands' law, 6.31e-5 Pa.s."""
+POLE_PRESSURE = 1.96e8
+"""Pressure of that pole below ambient [Pa]: 2000 kgf/cm2, the inverse of 5.1e-9 1/Pa."""
 
 
 @frozen(kw_only=True)
@@ -44,6 +49,10 @@ class PressureLaw(abc.ABC):
     @abc.abstractmethod
     def coefficient(self) -> float:
         """Slope of the logarithm at ambient pressure [1/Pa]."""
+
+    @abc.abstractmethod
+    def to_power(self, exponent: float) -> PressureLaw:
+        """Law of the factor to a power: that of the gradient of a power law at a given flux."""
 
     @abc.abstractmethod
     def _logarithm(self, pressure: Array) -> tuple[Array, Array]:
@@ -153,6 +162,10 @@ class Barus(PressureLaw):
 
     coefficient: float = field(validator=non_negative, metadata=si("1/Pa"))
 
+    def to_power(self, exponent: float) -> Barus:
+        """See `PressureLaw.to_power`."""
+        return evolve(self, coefficient=exponent * self.coefficient)
+
     def _logarithm(self, pressure: Array) -> tuple[Array, Array]:
         """See `PressureLaw._logarithm`."""
         return self.coefficient * pressure, np.full_like(pressure, self.coefficient)
@@ -182,7 +195,7 @@ class Roelands(PressureLaw):
 
     References
     ----------
-    Roelands (1966); Hamrock, Fundamentals of Fluid Film Lubrication, Eq. (4.9).
+    Roelands (1966); Hamrock, Fundamentals of Fluid Film Lubrication, Eq. (4.10).
 
     Examples
     --------
@@ -193,17 +206,22 @@ class Roelands(PressureLaw):
 
     viscosity: float = field(validator=positive, metadata=si("Pa.s"))
     exponent: float = field(validator=positive, metadata=si("-"))
-    pole_pressure: float = field(default=1.96e8, validator=positive, metadata=si("Pa"))
+    pole_pressure: float = field(default=POLE_PRESSURE, validator=positive, metadata=si("Pa"))
 
     @property
     def _height(self) -> float:
         """Logarithm of the viscosity at ambient over that of the pole."""
-        return math.log(self.viscosity) + 9.67
+        return math.log(self.viscosity) + POLE_LOGARITHM
 
     @property
     def coefficient(self) -> float:
         """See `PressureLaw.coefficient`."""
         return self.exponent * self._height / self.pole_pressure
+
+    def to_power(self, exponent: float) -> Roelands:
+        """See `PressureLaw.to_power`: that of a liquid nearer to the pole."""
+        viscosity = math.exp(exponent * self._height - POLE_LOGARITHM)
+        return evolve(self, viscosity=viscosity)
 
     def _logarithm(self, pressure: Array) -> tuple[Array, Array]:
         """See `PressureLaw._logarithm`."""

@@ -38,7 +38,7 @@ __all__ = ["SqueezedFilm", "squeeze_film", "squeeze_force"]
 _PANEL = 0.8
 NODES = 10
 # Within the core the force falls as exp(3 x): panels may grow, and exp(-34) is left out.
-_INNER = (2.4, 2.4, 1.6, 1.6, 0.8, 0.8, 0.8, 0.8)
+_INNER = (2.4, 2.4, 1.6, 1.6, 0.8, 0.8, 0.8)
 _FAR = 25.0  # logarithms beyond the core, where a film without a rim ends
 _TOGETHER = 256  # pairs solved at once, for memory
 _MOST = 80  # iterations of Newton's method
@@ -202,10 +202,12 @@ def _rule(panels: int) -> tuple[Array, Array, Array]:
 def _widths(spread: Array, halvings: int) -> Array:
     """Widths of the panels from the axis to the rim, shape (m, panels), in ln(radius).
 
-    `spread` is ln(rim/core), shape (m,); the outermost panel is halved towards the rim.
+    `spread` is ln(rim/core), shape (m,); the outermost panel is halved towards the rim. It begins
+    within the core: one as narrow as a rim just beyond that would leave a layer there unresolved.
     """
-    count = math.ceil(float(spread.max(initial=0.0)) / _PANEL)
-    outer = np.repeat(spread[:, None] / max(count, 1), count, axis=1)
+    length = spread + _PANEL
+    count = math.ceil(float(length.max(initial=_PANEL)) / _PANEL)
+    outer = np.repeat(length[:, None] / count, count, axis=1)
     widths = np.hstack([np.broadcast_to(_INNER, (spread.size, len(_INNER))), outer])
     parts = 0.5 ** np.append(np.arange(1, halvings + 1), halvings)
     return np.hstack([widths[:, :-1], widths[:, -1:] * parts])

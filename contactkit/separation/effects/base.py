@@ -104,6 +104,10 @@ class FilmView(Protocol):
         """Gap at which the film ends [m]."""
 
     @property
+    def cavity(self) -> Cavitation | None:
+        """Cavity that is followed; None without one."""
+
+    @property
     def volume_fraction(self) -> Callable[[float], float] | None:
         """Volume over that of the scene at a gap [m]; None for a film that keeps it."""
 

@@ -247,7 +247,8 @@ class ViscousForce(SeparationForce):
             known = closed_form(shape)
             by = "finite volumes" if known is None else known.law.source
             rough = "flow factors of a rough gap: homogenisation; Patir and Cheng 1978"
-            return (f"Reynolds 1886: {by}", *((rough,) if shape.roughness is not None else ()))
+            more = (rough,) if shape.roughness is not None else ()
+            return (f"Reynolds 1886: {by}", *more, *self._cites_of_liquid(scene))
         return (flats if scene.interface.is_flat else sphere, *self._cites_of_liquid(scene))
 
     def _cites_of_liquid(self, scene: SeparationScene) -> tuple[str, ...]:
@@ -274,7 +275,7 @@ class ViscousForce(SeparationForce):
         return ("viscosity", "surface_tension") if at_pressure else ("viscosity",)
 
     def proportional_to(self, scene: SeparationScene) -> str:
-        """See `SeparationForce.proportional_to`; a native FMU refuses a computed rheology."""
+        """See `SeparationForce.proportional_to`: the viscosity at rest, of a computed rheology."""
         return "viscosity"
 
     def lacks(self, scene: SeparationScene) -> tuple[str, ...]:
@@ -621,6 +622,18 @@ class TensionLimit(FilmLimit):
         viscosity, rtol = prepared.liquid.viscosity, prepared.accuracy.film_rtol
         return FaceCavity(film, grid, viscosity, self.tension, self.cavity_drop, rtol)
 
+    def validity(
+        self, plan: PlanView, path: Sequence[tuple[float, float]]
+    ) -> tuple[ValidityNumber, ...]:
+        """See `SeparationEffect.validity`: whether the rim of the liquid is resolved on a face."""
+        if not on_face(plan.scene):
+            return ()
+        from ..face.cavity import FaceCavity
+        from ..face.rim import rim_numbers
+
+        cavity = plan.film.cavity
+        return rim_numbers(cavity, path) if isinstance(cavity, FaceCavity) else ()
+
     def prepare(self, prepared: PreparedScene[SeparationScene]) -> Limiter:
         """See `FilmLimit.prepare`."""
         if prepared.rheology is not None and prepared.rheology.film is not None:
@@ -821,7 +834,7 @@ def _rheology_numbers(
     """Ranges of the rheology of the liquid, and the heat of the film."""
     rheology, liquid = prepared.rheology, prepared.scene.meniscus.liquid
     found = rheology.numbers(prepared, path) if rheology is not None else ()
-    if liquid.heat_capacity is None:
+    if liquid.heat_capacity is None and liquid.thermal_conductivity is None:
         return found
     from ..rheology.heating import heating_number
 

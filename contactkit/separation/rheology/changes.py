@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from .film import RheologicalFilm
+from .film import RheologicalFilm, flow_law
 
 if TYPE_CHECKING:
     from ...scene.scenes import SeparationScene
     from ..effects.prepared import PreparedScene
+    from .face import FaceRheology
 
-__all__ = ["PARTS", "WORTH", "Part", "force_change"]
+__all__ = ["PARTS", "WORTH", "Part", "film_of", "force_change"]
 
 WORTH = 0.01
 """Change of the force that a part is computed for [-]. The neighbours of Reynolds' equation are of
@@ -33,6 +34,20 @@ PARTS = (
 )
 
 
+def film_of(
+    prepared: PreparedScene[SeparationScene], parts: tuple[str, ...]
+) -> RheologicalFilm | FaceRheology:
+    """Film of a scene with some parts of the rheology of its liquid, and its slip."""
+    if prepared.scene.interface.has_discs or prepared.face_film is None:
+        return RheologicalFilm.of(prepared, parts)
+    from ..effects.viscous import viscous_film
+    from .face import FaceRheology
+
+    law, strength = flow_law(prepared, parts)
+    viscosity, shape = prepared.liquid.viscosity, viscous_film(prepared)
+    return FaceRheology(prepared.face_film, shape, law, viscosity, strength)
+
+
 def force_change(
     prepared: PreparedScene[SeparationScene], name: str, path: Sequence[tuple[float, float]]
 ) -> float:
@@ -44,7 +59,7 @@ def force_change(
     if not moving:
         return 0.0
     gaps, speeds = np.array(moving).T
-    plain, changed = (RheologicalFilm.of(prepared, parts) for parts in ((), (name,)))
+    plain, changed = (film_of(prepared, parts) for parts in ((), (name,)))
     wet = plain.radii(gaps) > 0.0
     before, after = (one.bounded_forces(gaps[wet], speeds[wet]) for one in (plain, changed))
     return float(np.abs(after / before - 1.0).max(initial=0.0))

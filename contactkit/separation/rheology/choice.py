@@ -15,10 +15,9 @@ from typing import TYPE_CHECKING
 from attrs import field, frozen
 
 from ...errors import PlanError
-from ...lubrication.flow_laws.newtonian import Newtonian
 from ...scene.loading import ImposedForce, ImposedSpeed, ImposedTime
 from ..film import balance_speed
-from .changes import PARTS, WORTH, force_change
+from .changes import PARTS, WORTH, film_of, force_change
 from .film import RheologicalFilm
 from .prepared_film import PreparedFilm
 from .validity import rheology_numbers
@@ -29,7 +28,7 @@ if TYPE_CHECKING:
     from ...validity import ValidityNumber
     from ..effects.prepared import PreparedScene
     from ..effects.viscous import ViscousForce
-    from .face import SlippingFace
+    from .face import FaceRheology
 
 __all__ = ["FilmRheology", "film_rheology"]
 
@@ -54,14 +53,14 @@ class FilmRheology:
         Parts that it does not.
     changes : mapping
         What each part changes the force by, alone, on the expected motion [-].
-    film : PreparedFilm or SlippingFace, optional
+    film : PreparedFilm, optional
         The film with what is computed. None: it is Newtonian and does not slip.
     """
 
     computed: tuple[str, ...]
     left_out: tuple[str, ...]
     changes: Mapping[str, float] = field(factory=dict)
-    film: PreparedFilm | SlippingFace | None = None
+    film: PreparedFilm | None = None
 
     @property
     def is_linear(self) -> bool:
@@ -106,8 +105,8 @@ def film_rheology(
     Raises
     ------
     PlanError
-        If the film is one that it is not known for: between rough or uneven faces, and for a
-        viscosity over pressure or shear on a face that is no disc.
+        If the film is one that it is not known for: between rough faces, or with a cavity that is
+        followed.
     """
     from ..effects.viscous import ViscousForce
 
@@ -124,12 +123,8 @@ def film_rheology(
     if not computed and not scene.meniscus.slips:
         return FilmRheology((), left, changes)
     _check_film(prepared, computed, changes)
-    film = RheologicalFilm.of(prepared, computed)
-    if prepared.face_film is not None and isinstance(film.law, Newtonian):
-        from .face import SlippingFace
-
-        return FilmRheology((), left, changes, SlippingFace(prepared.face_film, film.law))
-    return FilmRheology(computed, left, changes, _made(scene.loading, film, path))
+    film = _made(prepared, film_of(prepared, computed), path)
+    return FilmRheology(computed, left, changes, film)
 
 
 def _reach(loading: SeparationLoading) -> tuple[float, float]:
@@ -141,17 +136,28 @@ def _reach(loading: SeparationLoading) -> tuple[float, float]:
 
 
 def _made(
-    loading: SeparationLoading, film: RheologicalFilm, path: list[tuple[float, float]] | None
+    prepared: PreparedScene[SeparationScene],
+    film: RheologicalFilm | FaceRheology,
+    path: list[tuple[float, float]] | None,
 ) -> PreparedFilm:
     """Film with tables over the motion that is expected, and over more where it is not imposed."""
+    loading, reach = prepared.scene.loading, _reach(prepared.scene.loading)
+    # On a face an estimate: a search goes to any speed, and solves nothing.
+    force = film.force if isinstance(film, RheologicalFilm) else film.bounded_force
     fastest = max((film.shear_per_speed(h) * abs(v) for h, v in path or ()), default=0.0)
     if isinstance(loading, ImposedForce):
         if loading.force > 0.0:  # a liquid that thins opens faster
             for gap in (loading.initial_gap, loading.final_gap):
-                speed = balance_speed(partial(film.force, gap), loading.force)
+                speed = balance_speed(partial(force, gap), loading.force)
                 fastest = max(fastest, film.shear_per_speed(gap) * speed)
         fastest = _FASTER * (fastest or _FASTEST)
-    return PreparedFilm(film, _reach(loading), fastest * _EDGE)
+    if not isinstance(film, RheologicalFilm):
+        from .face import resolved
+
+        moving = [(gap, speed) for gap, speed in path or () if speed != 0.0]
+        some = moving or [(reach[0], _FASTEST / film.shear_per_speed(reach[0]))]
+        film = resolved(film, some, prepared.accuracy.film_rtol, fastest)
+    return PreparedFilm(film, reach, fastest * _EDGE)
 
 
 def _computed(
@@ -170,7 +176,7 @@ def _check_film(
     changes: Mapping[str, float],
 ) -> None:
     """Refuse films whose flow is not known for such a liquid."""
-    from ..face.shape import on_face, shape_of
+    from ..face.shape import on_face
 
     scene, words = prepared.scene, dict(PARTS)
     what = " and ".join([words[name] for name in computed] or ["slip at the walls"])
@@ -181,22 +187,17 @@ def _check_film(
         if computed
         else "leave the slip lengths of the meniscus out"
     )
-    if computed and on_face(scene):
+    if (scene.interface.has_discs and on_face(scene)) or _is_rough(scene):
         raise PlanError(
-            f"ViscousForce knows {what}{size} between discs and under a sphere, not on a face that "
-            f"is no disc or where a cavity is followed; {cure}, or solve an instant by "
-            "contactkit.lubrication.flow_laws.on_grid.solve_on_grid"
-        )
-    if (on_face(scene) and not shape_of(scene.interface).is_even) or _is_rough(scene):
-        raise PlanError(
-            f"ViscousForce knows {what}{size} between even, smooth faces, discs and under a "
-            f"sphere, not with tilt, crown, recess, relief, roughness or a followed cavity; "
-            f"{cure}"
+            f"ViscousForce knows {what}{size} between smooth faces, not with FineRoughness, a "
+            f"relief, or a cavity that is followed: flow factors and cells with a void are those "
+            f"of a Newtonian liquid that does not slip; {cure}"
         )
 
 
 def _is_rough(scene: SeparationScene) -> bool:
-    return any(face.roughness is not None for face in scene.interface.faces)
+    faces = scene.interface.faces
+    return any(face.roughness is not None or face.relief is not None for face in faces)
 
 
 def _expected(prepared: PreparedScene[SeparationScene]) -> list[tuple[float, float]] | None:
@@ -219,7 +220,7 @@ def _expected(prepared: PreparedScene[SeparationScene]) -> list[tuple[float, flo
         return [(gap, speed) for gap in gaps]
     if not isinstance(loading, ImposedForce) or (loading.force == loading.initial_speed == 0.0):
         return None
-    plain = RheologicalFilm.of(prepared, ())
+    plain = film_of(prepared, ())
     balance = [loading.force / max(plain.newtonian_force(gap, 1.0), _TINY) for gap in gaps]
     first = loading.initial_speed
     found = [(gap, max(speed, first, key=abs)) for gap, speed in zip(gaps, balance, strict=True)]

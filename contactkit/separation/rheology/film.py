@@ -30,7 +30,30 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["RheologicalFilm"]
+__all__ = ["RheologicalFilm", "flow_law"]
+
+
+def flow_law(
+    prepared: PreparedScene[SeparationScene], parts: tuple[str, ...]
+) -> tuple[FlowLaw, float]:
+    """Flow law of a scene with some parts of the rheology of its liquid, and its slip.
+
+    Also the tension [Pa] at which the liquid cavitates; inf if it never does.
+    """
+    from ..effects.viscous import TensionLimit
+
+    scene, viscosity = prepared.scene, prepared.liquid.viscosity
+    meniscus, limit = scene.meniscus, scene.effect(TensionLimit)
+    liquid, law = meniscus.liquid, None
+    if liquid.shear_viscosity is not None and "shear_viscosity" in parts:
+        law = liquid.shear_viscosity.flow_law(viscosity)
+    pressure = liquid.pressure_viscosity if "pressure_viscosity" in parts else None
+    flow = evolve(
+        law if law is not None else Newtonian(viscosity=viscosity),
+        slip_length=(meniscus.slip_length_lower, meniscus.slip_length_upper),
+        pressure_law=None if pressure is None else pressure.pressure_law(viscosity),
+    )
+    return flow, math.inf if limit is None else limit.tension
 
 
 @frozen(eq=False)
@@ -59,21 +82,10 @@ class RheologicalFilm:
         cls, prepared: PreparedScene[SeparationScene], parts: tuple[str, ...]
     ) -> RheologicalFilm:
         """Film of a scene with some parts of the rheology of its liquid, and its slip."""
-        from ..effects.viscous import TensionLimit, viscous_film
+        from ..effects.viscous import viscous_film
 
-        scene, viscosity = prepared.scene, prepared.liquid.viscosity
-        meniscus, limit = scene.meniscus, scene.effect(TensionLimit)
-        liquid, law = meniscus.liquid, None
-        if liquid.shear_viscosity is not None and "shear_viscosity" in parts:
-            law = liquid.shear_viscosity.flow_law(viscosity)
-        pressure = liquid.pressure_viscosity if "pressure_viscosity" in parts else None
-        flow = evolve(
-            law if law is not None else Newtonian(viscosity=viscosity),
-            slip_length=(meniscus.slip_length_lower, meniscus.slip_length_upper),
-            pressure_law=None if pressure is None else pressure.pressure_law(viscosity),
-        )
-        strength = math.inf if limit is None else limit.tension
-        return cls(viscous_film(prepared), flow, viscosity, strength)
+        law, strength = flow_law(prepared, parts)
+        return cls(viscous_film(prepared), law, prepared.liquid.viscosity, strength)
 
     @property
     def is_linear(self) -> bool:
@@ -126,15 +138,21 @@ class RheologicalFilm:
 
     def bounded_forces(self, gap: Array, speed: Array) -> Array:
         """Forces [N] of films whose pressure is truncated at the strength of the liquid."""
+        return self.bounded_and_full(gap, speed)[0]
+
+    def bounded_and_full(self, gap: Array, speed: Array) -> tuple[Array, Array]:
+        """Forces [N] of films whose pressure is truncated, and of the same without that."""
         if gap.ndim > 1:  # one call has nodes of one number of panels
-            return np.array([self.bounded_forces(*one) for one in zip(gap, speed, strict=True)])
-        film, radii = self._squeezed(gap, speed), self.radii(gap)
+            pairs = [self.bounded_and_full(*one) for one in zip(gap, speed, strict=True)]
+            bounded, full = (np.array(part) for part in zip(*pairs, strict=True))
+            return bounded, full
+        film, radii, n = self._squeezed(gap, speed), self.radii(gap), self.shape.menisci
         forces = np.array(film.force, dtype=float)
         over = (speed > 0.0) & (-np.asarray(film.centre_pressure) > self.strength)
         for place in zip(*np.nonzero(over), strict=True):
             one = (film.radius[place], film.gradient[place])
             forces[place] = truncated_force(*one, float(radii[place]), self.strength)
-        return np.asarray(self.shape.menisci * forces)
+        return n * forces, n * np.asarray(film.force)
 
     def peak_pressures(self, gap: Array, speed: Array) -> Array:
         """Largest pressure differences from ambient [Pa] of full films."""

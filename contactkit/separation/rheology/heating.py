@@ -120,6 +120,8 @@ def heating_number(heated: HeatedFilm, path: Sequence[tuple[float, float]]) -> V
     detail = f"{' and '.join(needs)} is not given" if needs else ""
     if rise is not None:
         detail = f"the film heats itself by {rise:.2g} K at most"
+        if liquid.heat_capacity is None:
+            detail += ", where walls take up all heat; liquid.heat_capacity adds a second bound"
         if slope is None:
             detail += "; the viscosity is a constant, which no temperature changes"
     return ValidityNumber(

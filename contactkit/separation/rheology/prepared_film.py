@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..effects.base import Limiter
+    from .face import FaceRheology
     from .film import RheologicalFilm
 
     Array = NDArray[np.floating[Any]]
@@ -35,7 +36,7 @@ class PreparedFilm:
 
     Parameters
     ----------
-    film : RheologicalFilm
+    film : RheologicalFilm or FaceRheology
         The film.
     gaps : (float, float)
         Smallest and largest gap of its tables [m].
@@ -43,7 +44,7 @@ class PreparedFilm:
         Fastest shear at a wall in its tables [1/s].
     """
 
-    film: RheologicalFilm
+    film: RheologicalFilm | FaceRheology
     gaps: tuple[float, float]
     fastest: float
     _tables: dict[tuple[str, int], Any] = field(factory=dict, init=False, repr=False)
@@ -163,7 +164,7 @@ class PreparedFilm:
 
     def _cavity_table(self, piece: int) -> LogTable:
         """Logarithm of the truncated force over that of the full film, from inception on."""
-        onset = self._inception(self._pieces[piece])
+        onset = self.inception_speed(self._pieces[piece])
         fastest = max(self.fastest * self.unit(h) / onset(h) for h in self._pieces[piece])
 
         def logarithm(gap: Array, speed: Array) -> Array:
@@ -173,7 +174,7 @@ class PreparedFilm:
             logarithm, onset, self._pieces[piece], (1.0, max(fastest, 10.0)), fades=False
         )
 
-    def _inception(self, gaps: tuple[float, float]) -> Callable[[float], float]:
+    def inception_speed(self, gaps: tuple[float, float]) -> Callable[[float], float]:
         """Speed [m/s] at which the full film cavitates, over the gap [m]."""
         from scipy.interpolate import make_interp_spline
 
@@ -194,11 +195,19 @@ class PreparedFilm:
 
     def force_law(self) -> ForceLaw:
         """Force as a motion takes it."""
-        shape = self.film.shape
-        marks = (shape.full_gap,) if 0.0 < shape.full_gap < math.inf else ()
         if self.film.is_linear:
-            return ForceLaw(self.linear_force, marks, shape.level, rate="proportional")
-        return ForceLaw(self.force, marks, shape.level, check=self._check)
+            return self.linear_law()
+        return ForceLaw(self.force, self._marks, self.film.shape.level, check=self._check)
+
+    def linear_law(self) -> ForceLaw:
+        """The same at the viscosity at rest, with slip."""
+        level = self.film.shape.level
+        return ForceLaw(self.linear_force, self._marks, level, rate="proportional")
+
+    @property
+    def _marks(self) -> tuple[float, ...]:
+        full = self.film.shape.full_gap
+        return (full,) if 0.0 < full < math.inf else ()
 
     def _check(self, gap: float, speed: float) -> None:
         """Refuse a motion at which no pressure carries the flux.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...validity import ValidityNumber
 from .changes import PARTS, WORTH, force_change
+from .film import RheologicalFilm
 from .prepared_film import PreparedFilm
 
 if TYPE_CHECKING:
@@ -110,9 +111,20 @@ def _of_table(
     film: PreparedFilm,
     points: Sequence[tuple[float, float]],
 ) -> Iterator[ValidityNumber]:
-    """Error of the table that a motion reads, at some points of the run."""
-    step = max(1, len(points) // _COMPARED)
-    exact = [(film.film.force(h, v), film.force(h, v)) for h, v in points[::step] if v != 0.0]
+    """Error of the table that a motion reads, at some points of the run, and of a grid."""
+    step, whole = max(1, len(points) // _COMPARED), film.film
+    force = whole.force if isinstance(whole, RheologicalFilm) else whole.solved_force
+    exact = [(force(h, v), film.force(h, v)) for h, v in points[::step] if v != 0.0]
+    if not isinstance(whole, RheologicalFilm):
+        yield ValidityNumber(
+            name="error of the rheology on its grid",
+            value=whole.error,
+            high=2.0 * prepared.accuracy.film_rtol,
+            detail=f"relative, of the force over the Newtonian one, on {whole.cells[0]} cells "
+            f"across for the flux and {whole.cells[1]} for what the law changes of it",
+            source="half the change from half the cells, where the liquid is farthest from "
+            "Newtonian",
+        )
     yield ValidityNumber(
         name="error of the film in its table",
         value=max((abs(b / a - 1.0) for a, b in exact if a != 0.0), default=0.0),

@@ -91,6 +91,11 @@ void ck_made_liquid_table(ck_reader *r, ck_liquid_table *made) {
     if (made->n_nodes < 4 || !(made->low < made->high)) r->fine = 0;
 }
 
+/* There is a coefficient for each pair of knots. */
+void ck_made_ratio(ck_reader *r, ck_ratio *made) {
+    if (made->n_nodes != made->gaps * made->speeds || !(made->end > made->first_speed)) r->fine = 0;
+}
+
 void ck_made_variable(ck_reader *r, ck_variable *made) {
     int fits = made->start >= made->low && made->start <= made->high;
     if (made->type & (made->type - 1)) r->fine = 0; /* one bit */

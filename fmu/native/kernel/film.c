@@ -1,6 +1,7 @@
 /* Forces of a film at a gap and a speed, and its impulses between two gaps. */
 
 #include "film.h"
+#include "rheology.h"
 
 #include <math.h>
 
@@ -145,7 +146,10 @@ void ck_forces_at(const ck_acting *a, double gap, double speed, ck_forces *found
     found->viscous = found->resistance * speed;
     found->viscous_by_gap = found->resistance_by_gap * speed;
     found->viscous_by_speed = found->resistance;
-    if (a->limited && liquid * speed != 0.0)
+    found->bent = a->rheology && liquid != 0.0;
+    if (liquid * speed == 0.0) return;
+    if (a->rheology) ck_rheological_force(a, gap, log_gap, speed, liquid, liquid_by_gap, found);
+    else if (a->limited)
         limited(a, gap, log_gap, speed, liquid, liquid_by_gap, found);
 }
 

@@ -24,6 +24,7 @@ typedef struct {
     double viscosity, surface_tension, tension, strength, sphere_radius, menisci;
     double end, release;
     const ck_cavity_law *law; /* how the film cavitates, where that is remembered, or NULL */
+    const ck_rheology *rheology; /* of a liquid that is not Newtonian, or NULL */
 } ck_acting;
 
 /* Forces at a gap and a speed, with slopes by gap and by speed. */
@@ -33,7 +34,7 @@ typedef struct {
     double resistance, resistance_by_gap; /* viscous force per speed without limits */
     double free, free_by_gap;             /* the part of that which no limit bounds */
     int limit;                            /* CK_LIMIT_KIND_... */
-    int padding;                          /* so that no byte of a saved state is left open */
+    int bent;                             /* whether the viscous one is no multiple of the speed */
 } ck_forces;
 
 /* What a limit leaves of a force, and how that follows the force, the gap and the shape. */

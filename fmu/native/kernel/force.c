@@ -3,6 +3,7 @@
    As fmu/slaves/stiction_force.py. The gap that was set when a step is taken is where the step ends. */
 
 #include "model.h"
+#include "rheology.h"
 
 #include <float.h>
 #include <math.h>
@@ -286,6 +287,16 @@ static void tell_cavity(ck_model *model, int was, double time) {
     model->say(model->host, CK_OK, "logEvents", message);
 }
 
+/* What stands against a step to the gap that was set, at the speed there or on the way; or NULL. */
+static const char *too_fast(const ck_model *model, double from, double length) {
+    const double *v = model->state.values;
+    const char *found;
+    ck_acting acting;
+    ck_act(&model->scene, model->state.memory.film, model->state.memory.broken, 0, &acting);
+    found = ck_rheological_obstacle(&acting, v[CK_H], v[CK_V]);
+    return found ? found : ck_rheological_obstacle(&acting, fmin(from, v[CK_H]), (v[CK_H] - from) / length);
+}
+
 static int step(ck_model *model, double time, double length) {
     ck_state *state = &model->state;
     ck_state before = *state;
@@ -297,13 +308,13 @@ static int step(ck_model *model, double time, double length) {
     ck_acting acting;
     ck_forces found;
     if (!isfinite(done.viscous + done.fixed) || !show(model)) {
-        char message[200];
+        static const char cure[] = "take shorter steps, with a gap nearer to the first";
+        char message[600];
+        const char *obstacle = too_fast(model, before.memory.gap, length);
         *state = before;
-        snprintf(message, sizeof message,
-                 "%s between a gap of %.6g m and %.6g m; take shorter steps, with a gap nearer to the "
-                 "first",
+        snprintf(message, sizeof message, "%s between a gap of %.6g m and %.6g m; %s",
                  left < 0 ? "the cavity takes too many internal steps" : "the forces are no finite numbers",
-                 state->memory.gap, v[CK_H]);
+                 state->memory.gap, v[CK_H], obstacle ? obstacle : cure);
         return ck_model_discard(model, message);
     }
     ck_act(&model->scene, state->memory.film, state->memory.broken, 0, &acting);

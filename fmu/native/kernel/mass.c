@@ -1,6 +1,7 @@
 /* stiction-mass: a mass held by a film; a pull in, motion out. */
 
 #include "model.h"
+#include "rheology.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -48,10 +49,14 @@ static int show(ck_model *model) {
 }
 
 static int no_step(ck_model *model, const ck_motion *where) {
-    char message[400];
-    const char *cure = "take shorter steps, or loosen rtol";
+    char message[600];
+    const char *cure = "take shorter steps, or loosen rtol", *obstacle;
+    ck_acting acting;
+    ck_act(&model->scene, where->film, where->broken, where->detached, &acting);
+    obstacle = ck_rheological_obstacle(&acting, where->gap, where->speed);
     if (where->gap < 1e-12)
         cure = "the bodies are pressed together; give h_min [m], where asperities carry";
+    else if (obstacle) cure = obstacle;
     snprintf(message, sizeof message,
              "no step of time can be taken from %.9g s, gap %.6g m, speed %.6g m/s; %s",
              clock_at(model, where->time), where->gap, where->speed, cure);

@@ -3,6 +3,7 @@
 #include "model.h"
 
 #include "host.h"
+#include "rheology.h"
 
 #include <float.h>
 #include <math.h>
@@ -240,6 +241,19 @@ int ck_step_limit(const ck_model *model) {
     return most >= 1.0 && most <= 1e9 ? (int)most : 1; /* a file may say anything */
 }
 
+/* Why the forces at the start are no finite numbers. */
+static const char *no_start(const ck_model *model) {
+    const double *v = model->state.values;
+    int has_mass = model->data.contents.model == CK_STICTION_MASS;
+    const char *obstacle = NULL;
+    ck_acting acting;
+    if (model->data.contents.has_tables) {
+        ck_act(&model->scene, 0, 0, 0, &acting);
+        obstacle = ck_rheological_obstacle(&acting, v[has_mass ? CK_H0 : CK_H], v[has_mass ? CK_V0 : CK_V]);
+    }
+    return obstacle ? obstacle : "the forces at the start are no finite numbers";
+}
+
 /* Start from the parameters; the message says what is wrong with them. */
 const char *ck_model_prepare(ck_model *model) {
     const ck_kind *kind = ck_model_kind(model);
@@ -247,7 +261,7 @@ const char *ck_model_prepare(ck_model *model) {
     model->state.stale = 0;
     if (problem) return problem;
     kind->start(model);
-    if (!kind->show(model)) return "the forces at the start are no finite numbers";
+    if (!kind->show(model)) return no_start(model);
     model->state.shown = 1;
     return NULL;
 }

@@ -30,7 +30,7 @@ typedef struct {
     ck_contents contents;
     double *numbers;
     ck_cell *cells;
-    int hints[CK_MOST_FILMS * (CK_MOST_LAWS + 1) * CK_MOST_PIECES];
+    int hints[CK_MOST_FILMS * (CK_MOST_LAWS + 1 + 3 * CK_MOST_STRETCHES) * CK_MOST_PIECES];
 } ck_data;
 
 /* What a film without its mass remembers: where the last step ended, and what happened so far. */

@@ -54,7 +54,9 @@ void ck_act(const ck_scene *scene, int number, int broken, int detached, ck_acti
         if (acting->acts[i] && law->release < acting->release) acting->release = law->release;
     }
     acting->end = broken ? HUGE_VAL : scene->ends[number];
+    acting->rheology = !broken && film->has_rheology ? &film->rheology : NULL;
     acting->limited = !broken && (scene->tension > 0.0 || scene->strength > 0.0);
+    if (acting->rheology) acting->limited = acting->rheology->stretches[0].has_cavity;
     acting->is_sphere = scene->tables->is_sphere;
     acting->reynolds = scene->tables->reynolds;
     acting->viscosity = scene->viscosity;
@@ -118,9 +120,20 @@ static void rest_once(const ck_scene *scene, ck_motion *state, const ck_pull *pu
     state->fixed_impulse += elapsed * film;
 }
 
+/* Forces that a damping is read off: at rest a film that thins or thickens has that of a liquid at rest,
+   so that one that crosses the gap in a step is asked. */
+static ck_forces damping_of(const ck_acting *acting, const ck_motion *state, double crossing,
+                            const ck_forces *first) {
+    ck_forces found;
+    if (!first->bent || !(fabs(state->speed) < crossing)) return *first;
+    ck_forces_at(acting, state->gap, crossing, &found);
+    return isfinite(found.resistance) ? found : *first;
+}
+
 static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion *state,
                  const ck_pull *pull, ck_problem *p, ck_forces *first) {
     double drive = ck_pull_at(pull, state->time), spring, crossing;
+    ck_forces damped;
     p->cavity = is_hollow(acting, state) ? &state->cavity : NULL;
     if (p->cavity) {
         ck_forces_of(acting, state, first, &p->spot);
@@ -141,8 +154,10 @@ static void pose(const ck_scene *scene, const ck_acting *acting, const ck_motion
     p->size = fabs(drive) + fabs(first->fixed) + fabs(spring) + 1e-300;
     p->delivered = state->applied_impulse + scene->mass * fabs(state->speed);
     crossing = state->gap / (state->step > 0.0 ? state->step : 1e-6);
+    damped = damping_of(acting, state, crossing, first);
+    if (damped.bent) p->exponent = ck_film_exponent(state->gap, &damped);
     /* Speed at which the film balances the other forces: what a creeping mass is measured against. */
-    p->scale = first->resistance > 0.0 ? ck_larger(p->size / first->resistance, 1e-15 * crossing)
+    p->scale = damped.resistance > 0.0 ? ck_larger(p->size / damped.resistance, 1e-15 * crossing)
                                        : crossing;
     p->net = drive - spring - first->fixed - first->viscous;
     p->net_by_gap = -scene->stiffness - first->fixed_by_gap - first->viscous_by_gap;

@@ -119,7 +119,7 @@ static void carry(ck_forces *f, const ck_point *from, const ck_point *to) {
     double dh = to->gap - from->gap;
     f->fixed += f->fixed_by_gap * dh;
     f->resistance += f->resistance_by_gap * dh;
-    if (f->limit == CK_LIMIT_KIND_NONE) f->viscous = f->resistance * to->speed;
+    if (f->limit == CK_LIMIT_KIND_NONE && !f->bent) f->viscous = f->resistance * to->speed;
     else f->viscous += f->viscous_by_gap * dh + f->viscous_by_speed * (to->speed - from->speed);
 }
 
@@ -205,8 +205,11 @@ static void estimate(const ck_problem *p, double g, double s, double rate, doubl
     error[1] = (j21 * a + (g - j11) * b) / det;
 }
 
-/* Whether slopes of forces may jump, or follow from a memory. */
-static int has_limits(const ck_problem *p) { return p->acting->limited || p->acting->law; }
+/* Whether slopes of forces may jump, follow from a memory, or are those of a force that is no multiple of
+   the speed. */
+static int has_limits(const ck_problem *p) {
+    return p->acting->limited || p->acting->law || p->acting->rheology;
+}
 
 /* Net force where the first estimate leads; only far off it is asked for. */
 static double net_near(const ck_problem *p, double gap, double speed) {
@@ -231,7 +234,7 @@ static double held_by(const ck_problem *p, double dt, const ck_forces *end) {
 static double lag_error(const ck_problem *p, const ck_step *taken, double acceleration) {
     const ck_forces *end = &taken->forces[2];
     double damping = end->viscous_by_speed, speed = taken->stages[2].speed, rate, led, lag;
-    if (!(damping > 0.0) || end->limit != CK_LIMIT_KIND_NONE || speed == 0.0) return 0.0;
+    if (!(damping > 0.0) || end->limit != CK_LIMIT_KIND_NONE || end->bent || speed == 0.0) return 0.0;
     rate = p->pull.rate + 2.0 * p->pull.bend * (taken->stages[2].time - p->pull.time);
     led = (rate - (p->spring + end->fixed_by_gap + end->viscous_by_gap) * speed) / damping;
     lag = p->mass / damping * led;

@@ -60,20 +60,23 @@ def write(folder):
 
 
 def pressure_of(folder, name, n):
-    """Map of pressures that a program left; none if it left none."""
+    """Map of pressures that a program left, or what is wrong with it."""
     raw, packed = folder / f"{name}.bin", folder / f"{name}.npy"
     if not raw.exists() and not packed.exists():
-        return None
+        return "no answer"
     found = np.fromfile(raw, dtype="<f8") if raw.exists() else np.load(packed)
     if found.size != n * n:
-        sys.exit(f"{name}: {found.size} pressures, expected {n} x {n}")
+        half = ", as of half the bytes of a double" if 2 * found.size == n * n else ""
+        return f"{found.size} pressures{half}, expected {n} x {n}"
     if not np.isfinite(found).all():
-        sys.exit(f"{name}: a pressure is not finite")
+        return "a pressure is not finite"
     return found.reshape(n, n)
 
 
 def grade(folder, answers):
     """Table of marks."""
+    if not (folder / "problems.json").is_file():
+        sys.exit(f"{folder} has no problems.json: write it first, by exchange.py write {folder}")
     asked = json.loads((folder / "problems.json").read_text(encoding="utf-8"))["problems"]
     head = f"{'problem':22} {'violation':>10} {'load':>8} {'contact':>9}"
     lines = [head]
@@ -82,8 +85,8 @@ def grade(folder, answers):
         heights = np.fromfile(folder / f"{one['name']}.bin", dtype="<f8").reshape(n, n)
         given = Case(heights, one["mean_pressure"], one["periodic"], one["rms_height"])
         pressure = pressure_of(answers, one["name"], n)
-        if pressure is None:
-            lines.append(f"{one['name']:22} no answer")
+        if isinstance(pressure, str):
+            lines.append(f"{one['name']:22} {pressure}")
             continue
         bound = one["largest_pressure"] or np.inf
         worst, load = violation(pressure, given, cap=bound)

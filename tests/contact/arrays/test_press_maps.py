@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 from libraries import (
@@ -19,6 +21,8 @@ from libraries import (
 import contactkit as ck
 
 SIX = np.array([rough(32, seed) for seed in range(6)]).reshape(2, 3, 32, 32)
+# Loads at which the solver is tried, and which strain the solids more than elasticity allows.
+beyond_small_strains = pytest.mark.filterwarnings("ignore:peak pressure over E*")
 LOADS = np.array([[0.0, 1e4, 1e6], [1e7, 5e7, 5e8]])  # none to full contact
 APPROACHES = np.array([[0.0, 1e-5, -1e-3], [1e-4, 1e-3, 1.5e-3]])
 
@@ -45,6 +49,7 @@ def agrees(library, found, known, rtol=1e-6):
     assert library.give(found.kkt).max() <= 1e-8
 
 
+@beyond_small_strains
 @pytest.mark.parametrize("periodic", [True, False, "x"])
 def test_loads_from_none_to_full_contact(library, periodic):
     found, known = pressed(library, SIX, SOLID, mean_pressure=LOADS, periodic=periodic)
@@ -55,6 +60,7 @@ def test_loads_from_none_to_full_contact(library, periodic):
     agrees(library, found, known)
 
 
+@beyond_small_strains
 @pytest.mark.parametrize("solid", [COATED, SHEET], ids=["hard film", "sheet on a base"])
 @pytest.mark.parametrize("periodic", [True, False])
 def test_layers(library, solid, periodic):
@@ -102,6 +108,7 @@ def test_odd_sides_and_long_pixels(library):
     agrees(library, found, ck.press_maps(h, (1e-3, 3e-3), SOLID, mean_pressure=1e7))
 
 
+@beyond_small_strains
 def test_one_map_is_as_in_a_batch(library):
     found, _ = pressed(library, SIX, SOLID, mean_pressure=LOADS)
     alone, _ = pressed(library, SIX[1, 0], SOLID, mean_pressure=1e7)
@@ -112,6 +119,7 @@ def test_one_map_is_as_in_a_batch(library):
     assert abs(int(alone.n_applications) - int(found.n_applications[1, 0])) <= 2
 
 
+@beyond_small_strains
 def test_single_precision(library):
     """In float32 throughout: pressures to 1e-3 of the highest, at the tolerance of float32."""
     found, known = pressed(library, SIX, SOLID, single=True, mean_pressure=LOADS)
@@ -151,6 +159,8 @@ def test_wave_is_that_of_westergaard(library, fraction):
     assert peak == pytest.approx(2.0 * flattening * np.sqrt(fraction), rel=0.01)
 
 
+@pytest.mark.filterwarnings("ignore:rms slope")  # of heights of any size
+@beyond_small_strains
 def test_full_contact_is_a_wave_of_pressure(library):
     """Beyond flattening the pressure is its mean plus p* cos, and the surfaces touch."""
     n = 64
@@ -197,6 +207,7 @@ def test_flat_maps(library):
         assert library.give(found.rigid_approach) == pytest.approx(known.rigid_approach, abs=1e-9)
 
 
+@beyond_small_strains
 @pytest.mark.hard
 @pytest.mark.parametrize("contrast", [1e-6, 1e6])
 def test_films_of_any_stiffness(library, contrast):
@@ -226,6 +237,43 @@ def test_deep_in_a_bound(library):
     )
     assert known.mean_pressure[2] == 1e8
     agrees(library, found, known)
+
+
+UNITS = [
+    ({"heights": 1e6}, "rms slope"),
+    ({"mean_pressure": 1e6}, "peak pressure over"),
+    ({"pixel_size": 1e6}, "rms slope"),
+]
+
+
+@pytest.mark.errors
+@pytest.mark.parametrize(("factor", "named"), UNITS)
+def test_a_mistaken_unit_is_pointed_out(library, factor, named):
+    """By the numbers of `press`, of the worst map."""
+    h, p, size = SIX[0] * 1e-3, np.array([2e4, 1e4, 3e4]), 1e-3 / 32
+    h, p, size = (
+        value * factor.get(name, 1.0)
+        for name, value in (("heights", h), ("mean_pressure", p), ("pixel_size", size))
+    )
+    with pytest.warns(ck.ValidityWarning, match=named), library.strictly():
+        found = ck.press_maps(library.take(h), size, SOLID, mean_pressure=library.take(p))
+    with warnings.catch_warnings(action="ignore"):
+        alone = [ck.press(one, size, SOLID, float(x)).validity for one, x in zip(h, p, strict=True)]
+    known = [(one.name, one.value) for each in alone for one in each if one.value is not None]
+    for number in found.validity:
+        expected = pytest.approx(number.value, rel=1e-4)
+        assert any(name == number.name and value == expected for name, value in known), number
+
+
+def test_edges_that_do_not_fit_are_pointed_out(library):
+    """The ridge of a tilted map along the edges that repeat, as of `press`; not along others."""
+    h = SIX[0] * 1e-3 + np.linspace(0.0, 3e-5, 32)
+    for periodic in (True, "x", "y", False):
+        with warnings.catch_warnings(record=True) as said, library.strictly():
+            warnings.simplefilter("always")
+            ck.press_maps(library.take(h), 1e-3 / 32, SOLID, mean_pressure=1e4, periodic=periodic)
+        jumps = [one for one in said if "jump at the edge" in str(one.message)]
+        assert len(jumps) == (periodic in (True, "x"))
 
 
 def test_nothing_but_flags_reaches_the_host():

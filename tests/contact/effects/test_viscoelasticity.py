@@ -142,6 +142,15 @@ def test_a_punch_creeps_with_the_compliance():
     assert part.approach[1] == pytest.approx(elastic.approach, rel=1e-9)
 
 
+def test_times_may_be_as_short_or_long_as_floats():
+    history = ck.Viscoelasticity(times=(0.0, 1e-300, 1e30), forces=(FORCE, FORCE), steps=1)
+    part = solved_punch(ck.Pressing(force=FORCE), history).of(ck.Viscoelasticity)
+    stiff = RUBBER.instantaneous.young_modulus, RUBBER.equilibrium.young_modulus
+    assert part.approach[2] == pytest.approx(part.approach[1], rel=1e-9)
+    assert part.approach[3] / part.approach[1] == pytest.approx(stiff[0] / stiff[1], rel=1e-9)
+    assert np.isfinite(part.dissipated_energy).all()
+
+
 def test_a_cycle_loses_what_the_loss_compliance_says():
     """pi F^2 J'' over the stiffness of a punch, once the creep under the mean load is over.
 

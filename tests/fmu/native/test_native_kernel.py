@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import subprocess
 
 import attrs
 import numpy as np
@@ -13,14 +12,13 @@ from native_scenes import (
     ANGLES,
     FORCES,
     HAS_CC,
-    HERE,
     OIL,
     SCENES,
     SPHERE,
     bare_meniscus,
-    compile_c,
+    compile_probe,
+    probed,
     scene,
-    write_sources,
 )
 from selection import quick
 
@@ -34,9 +32,7 @@ from contactkit.errors import ConvergenceError
 from contactkit.fmu.framework.instance import Instance
 from contactkit.fmu.framework.toolchain import local
 from contactkit.fmu.native.build import build_native
-from contactkit.fmu.native.data import contents_of, data_file
 from contactkit.fmu.native.film import FINE, moving, prepared_film
-from contactkit.fmu.native.sources import layout
 from contactkit.fmu.native.tables import tabulate
 from contactkit.fmu.slaves.stiction_mass import PORTS, MeniscusLaw, scene_of
 from contactkit.separation.effects.base import LimitKind
@@ -47,12 +43,7 @@ from contactkit.separation.plan import plan
 
 @pytest.fixture(scope="module")
 def probe(shelf):
-    def make(folder):
-        write_sources(folder)
-        files = [path for path in folder.glob("*.c") if not path.name.startswith(("fmi2", "fmi3"))]
-        compile_c([HERE / "native_probe.c", *files], folder / "probe", f"-I{folder}", "-O0")
-
-    return shelf.folder("kernel probe", make) / "probe"
+    return shelf.folder("kernel probe", compile_probe) / "probe"
 
 
 @pytest.fixture(scope="module")
@@ -70,18 +61,8 @@ def tables():
 
 def kernel_forces(probe, prepared, folder, gaps, speeds, tension=0.0, strength=0.0):
     """Fixed force, its slope, viscous force, its slopes, and the limit."""
-    start = {port.name: port.start for port in PORTS}
-    numbers = contents_of("stiction-mass", PORTS[:1], start, prepared.tables).numbers()
-    (folder / "film.bin").write_bytes(data_file("g", layout(), numbers))
-    words = [str(probe), str(folder), str(OIL.viscosity), str(OIL.surface_tension)]
-    said = subprocess.run(
-        [*words, repr(tension), repr(strength)],
-        check=True,
-        capture_output=True,
-        text=True,
-        input="".join(f"{g!r} {v!r}\n" for g, v in zip(gaps, speeds, strict=True)),
-    ).stdout
-    return np.array([[float(word) for word in line.split()] for line in said.splitlines()]).T
+    parameters = (OIL.viscosity, OIL.surface_tension, tension, strength)
+    return probed(probe, prepared.tables, folder, zip(gaps, speeds, strict=True), parameters)
 
 
 def slope(function, gap, fraction=4e-4):

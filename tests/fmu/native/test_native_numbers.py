@@ -105,6 +105,7 @@ SHARED = {
             "GROW": "StepSize(grow)",
         },
     ),
+    "rheology/rheology.c": ("fmu/native/ratios.py", "DEGREE"),
     "tips/impact.c": (
         "models/micromirror/tip_impact.py",
         {"PARTS": "_OUT_PIECES", "GROW": "StepSize(grow)", "UNSOLVED": "StepSize(unsolved)"},
@@ -131,6 +132,7 @@ OWN = {
     "cavities/obstacle.c": "TIED MOST_SETS MANY_SETS",
     "cavities/factor.c": "SINGULAR",
     "cavities/law.c": "CELLS_PER_COST",
+    "rheology/rheology.c": "EDGE NEAR",
     "tips/flight.c": "PI",
     "tips/impact.c": "SAME SAME_FRACTION",
     "deforming/bodies.c": "R6 MOST_RINGS",

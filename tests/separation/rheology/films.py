@@ -44,6 +44,17 @@ def film_scene(*effects, liquid=None, meniscus=None, loading=None, body="flat", 
     )
 
 
+def face_scene(face, *effects, loading=None, **given):
+    """A flooded film between a face and a flat, of a liquid with what is given and its slip."""
+    meniscus = {key: given.pop(key) for key in list(given) if key.startswith("slip")}
+    oil = ck.Liquid(name="oil", viscosity=ETA, **given)
+    return ck.SeparationScene(
+        interface=ck.Interface(upper=face, meniscus=ck.Meniscus(liquid=oil, **meniscus)),
+        loading=loading or ck.ImposedSpeed(speed=1e-3, initial_gap=1e-6, final_gap=1e-5),
+        effects=effects or (ck.ViscousForce(),),
+    )
+
+
 def shear_rate(law):
     """Shear rate [1/s] of a law over the stress [Pa]."""
     if isinstance(law, EyringViscosity):

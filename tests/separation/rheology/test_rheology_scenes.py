@@ -8,7 +8,7 @@ import warnings
 
 import numpy as np
 import pytest
-from films import BARUS, CARREAU, ETA, EYRING, POWER, RIM, film_scene
+from films import BARUS, CARREAU, ETA, EYRING, POWER, RIM, face_scene, film_scene
 from refusals import refuses
 
 import contactkit as ck
@@ -195,6 +195,17 @@ def test_walls_that_conduct_bound_the_temperature_rise():
     assert "heats itself by" in number.detail
 
 
+def test_walls_that_conduct_are_a_bound_of_their_own():
+    """Without a heat capacity too: the number is stated, and says of which bound."""
+    both, alone = (
+        judged(hot(thermal_conductivity=0.13, **more))[0]["viscosity lost by heating"]
+        for more in ({"heat_capacity": 2e3}, {})
+    )
+    assert alone.value == pytest.approx(both.value, rel=1e-9)
+    assert "liquid.heat_capacity adds" in alone.detail
+    assert "liquid.heat_capacity" not in both.detail
+
+
 @pytest.mark.filterwarnings("ignore::contactkit.errors.ValidityWarning")
 def test_work_of_a_film_that_keeps_it_bounds_the_temperature_rise():
     result = ck.simulate(ck.plan(hot(heat_capacity=2e3), ck.Accuracy(points=2000)))
@@ -278,37 +289,10 @@ def test_what_is_not_known_is_refused_by_name(call, parts):
     refuses(call, *parts, error=ck.PlanError)
 
 
-def on_face(face, **given):
-    """A flooded film between a face and a flat."""
-    meniscus = {key: given.pop(key) for key in list(given) if key.startswith("slip")}
-    oil = ck.Liquid(name="oil", viscosity=ETA, **given)
-    return ck.SeparationScene(
-        interface=ck.Interface(upper=face, meniscus=ck.Meniscus(liquid=oil, **meniscus)),
-        loading=ck.ImposedSpeed(speed=1e-3, **GAPS),
-        effects=(ck.ViscousForce(),),
-    )
-
-
-def test_a_face_that_is_no_disc_knows_slip_alone():
-    plan, plain = ck.plan(on_face(RING, slip_length_upper=5e-7)), ck.plan(on_face(RING))
+def test_slip_on_an_even_face_is_that_of_a_disc():
+    plan, plain = (ck.plan(face_scene(RING, **slip)) for slip in ({"slip_length_upper": 5e-7}, {}))
     ratio = (2e-6 + 5e-7) / (2e-6 + 2e-6)
     assert plan.force(2e-6, 1e-3) == pytest.approx(ratio * plain.force(2e-6, 1e-3), rel=1e-12)
-    refuses(
-        lambda: ck.plan(on_face(RING, pressure_viscosity=BARUS)),
-        "ViscousForce knows viscosity over pressure (it changes the force by",
-        "not on a face that is no disc",
-        error=ck.PlanError,
-    )
-
-
-def test_slip_on_a_face_that_is_not_even_is_refused():
-    crown = ck.Flat(radius=RIM, crown_radius=1e-2)
-    refuses(
-        lambda: ck.plan(on_face(crown, slip_length_lower=1e-6)),
-        "ViscousForce knows slip at the walls between even, smooth faces",
-        "leave the slip lengths of the meniscus out",
-        error=ck.PlanError,
-    )
 
 
 def test_bodies_that_deform_or_slide_refuse_it():
