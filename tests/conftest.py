@@ -27,6 +27,14 @@ settings.register_profile("repeatable", derandomize=True, max_examples=10, **UNT
 settings.register_profile("random", database=None, print_blob=True, **UNTIMED)
 settings.load_profile("repeatable")
 
+# Unless told otherwise, approx takes 1e-12 for equal to anything below it, whatever the relative
+# tolerance: energies [J], volumes [m3], forces of bridges [N]; 58 comparisons passed with values
+# 30 % beside. So only zero keeps that tolerance, also inside lists, dicts and arrays;
+# tests/rules/test_tolerances.py notices a pytest that keeps it elsewhere.
+type(pytest.approx(1.0)).DEFAULT_ABSOLUTE_TOLERANCE = property(
+    lambda number: 0.0 if number.expected else 1e-12
+)
+
 
 def pytest_collection_modifyitems(items):
     """What is exhaustive is slow; first, before the marks are looked at."""

@@ -241,8 +241,8 @@ def test_it_yields_where_the_hardness_is_met(rough):
         elastic = approach <= rough.elastic_limit
         assert (rough.at(approach).plastic_area == 0.0) is elastic
         assert (rough.residual(approach) == 0.0) >= elastic
-    left = rough.at(1e-9, rough.max_approach).plastic_area
-    assert left == pytest.approx(rough.plastic_area[-1], rel=1e-12)
+    flattened = rough.at(1e-9, rough.max_approach).plastic_area
+    assert flattened == pytest.approx(rough.plastic_area[-1], rel=1e-12)
 
 
 def test_it_scales_and_travels_as_data(rough):

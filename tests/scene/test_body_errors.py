@@ -153,7 +153,7 @@ def test_the_attraction_within_a_rim_is_the_integral_of_the_pressure(rim):
         pressure = pressure_between_flats(gap + 0.5 * r * r / radius, hamaker)
         return 2.0 * math.pi * r * pressure
 
-    value, _ = quad(ring, 0.0, rim, epsrel=1e-12, limit=200)
+    value, _ = quad(ring, 0.0, rim, epsabs=0.0, epsrel=1e-12, limit=200)
     assert sphere_force(gap, hamaker, 1.0 / radius, rim) == pytest.approx(value, rel=1e-9)
     free = hamaker * radius / (6.0 * gap**2)
     assert sphere_force(gap, hamaker, 1.0 / radius) == pytest.approx(free, rel=1e-14)

@@ -159,7 +159,7 @@ def test_the_end_of_the_grid_is_that_of_narrower_and_wider_ones_on_a_stiff_film(
 
 def test_the_end_of_a_law_is_no_narrower_than_matters():
     law = ck.DugdaleAttraction(work_of_adhesion=0.05, range=1e-9)
-    assert law.on_grid(1e-30).numbers[2] == pytest.approx(1e-12, rel=1e-6, abs=0.0)
+    assert law.on_grid(1e-30).numbers[2] == pytest.approx(1e-12, rel=1e-6)
 
 
 def test_what_does_not_settle_names_the_width_of_the_end(monkeypatch):

@@ -152,8 +152,11 @@ def test_times_may_be_as_short_or_long_as_floats():
 
 
 def test_a_cycle_loses_what_the_loss_compliance_says():
-    """pi F^2 J'' over the stiffness of a punch, after the first cycles."""
-    n, period = 32, 6.0
+    """pi F^2 J'' over the stiffness of a punch, once the creep under the mean load is over.
+
+    It decays as exp(-t/8 s): cycles of 6 s still lost 3.4 % more in the fourth.
+    """
+    n, period = 32, 24.0
     time = np.arange(1, 4 * n + 1) * (period / n)
     loads = FORCE * (1.0 + np.sin(2.0 * math.pi * time / period))
     history = ck.Viscoelasticity(times=time, forces=loads[:-1], steps=1)
@@ -162,9 +165,10 @@ def test_a_cycle_loses_what_the_loss_compliance_says():
     lossy = float(loss / (storage**2 + loss**2))
     elastic = solved_punch(ck.Pressing(force=FORCE), solid=RUBBER.equilibrium)
     unit = elastic.approach / FORCE * RUBBER.equilibrium.young_modulus  # approach per load and J
-    expected = math.pi * FORCE**2 * lossy * unit
+    chords = np.sinc(1.0 / n) ** 2  # of their amplitude the loads between the given ones leave
+    expected = math.pi * (FORCE * chords) ** 2 * lossy * unit
     last = part.dissipated_energy[-1] - part.dissipated_energy[-1 - n]
-    assert last == pytest.approx(expected, rel=0.01)
+    assert last == pytest.approx(expected, rel=2e-4)
     assert part.work_error < 0.01
 
 

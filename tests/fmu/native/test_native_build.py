@@ -33,7 +33,7 @@ from contactkit.fmu.framework.instance import Instance  # noqa: E402
 from contactkit.fmu.framework.toolchain import PLATFORMS, compile_kernel, join_macs, local  # noqa: E402
 from contactkit.fmu.native.build import build_native, native_scene  # noqa: E402
 from contactkit.fmu.python.build import validate  # noqa: E402
-from contactkit.fmu.slaves.rheology import RHEOLOGY
+from contactkit.fmu.slaves.rheology import RHEOLOGY  # noqa: E402
 from contactkit.fmu.slaves.stiction_mass import StictionMass  # noqa: E402
 
 ONE = {"platforms": [local()], "compiler": "cc"}
