@@ -13,10 +13,10 @@ from ...reading.xml_elements import check_xml
 __all__ = ["no_fmu", "read_model"]
 
 
-def no_fmu(path: Path) -> str | None:
-    """How to make an FMU of a file that is none; None if that is not known."""
+def no_fmu(path: Path) -> str:
+    """How to make an FMU of a file that is none; empty if that is not known."""
     if path.suffix not in (".toml", ".json"):
-        return None
+        return ""
     return f"make one of a scene first: contactkit fmu build {path.name} --out {path.stem}.fmu"
 
 
