@@ -226,7 +226,7 @@ def _unit(film: AnyFilm, gaps: Floats) -> Floats:
 def _linear_pressure(film: AnyFilm, gaps: Floats) -> Floats:
     """Pressure on the axis per speed [Pa.s/m], at the viscosity at rest."""
     if isinstance(film, FaceRheology):
-        return film.linear_pressures(gaps)
+        return np.asarray(film.linear_pressures(gaps), dtype=np.float64)
     plain = evolve(film, law=evolve(film.law, pressure_law=None))
     return np.asarray(plain.peak_pressures(gaps, np.ones_like(gaps)), dtype=np.float64)
 
@@ -282,14 +282,14 @@ def _axes(
 
 def _kink(film: AnyFilm) -> float | None:
     """Logarithm of the unit shear rate [1/s] at which a power law begins; None if not known."""
-    law, on_face = film.law, isinstance(film, FaceRheology)
+    law = film.law
     is_plain = max(law.slip_length) == 0.0 and law.pressure_law is None
     if not (isinstance(law, PowerLaw) and is_plain and law.plateau_viscosity):
         return None
-    if on_face and not film.has_one_variable:
-        return None
     begins = math.log(law.plateau_stress / law.plateau_viscosity)
-    return begins - math.log(film.fastest_shear) if on_face else begins
+    if isinstance(film, RheologicalFilm):
+        return begins
+    return begins - math.log(film.fastest_shear) if film.has_one_variable else None
 
 
 def _closing(film: AnyFilm, gaps: tuple[float, float]) -> Ratio:
