@@ -9,12 +9,13 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 from xml.etree.ElementTree import Element
-from zipfile import ZipFile
+from zipfile import ZipFile, is_zipfile
 
 from ...errors import ContactkitError, DescriptionError
 from ...extras import require
 from ...reading.archives import checked_archive, member
 from ...reading.xml_elements import read_xml
+from ..framework.model_file import no_fmu
 from .references import FOLDER, TOLERANCE_NOTE, ReferenceRun
 
 if TYPE_CHECKING:
@@ -55,6 +56,8 @@ def read_references(fmu: Path) -> list[ReferenceRun]:
     where = str(fmu)
     if not fmu.is_file():
         raise DescriptionError("FMU", where, "be a file that is there")
+    if not is_zipfile(fmu):
+        raise DescriptionError("FMU", where, "be an FMU, which is a zip archive", hint=no_fmu(fmu))
     with fmu.open("rb") as file, checked_archive(file, where) as packed:
         if _MANIFEST not in packed.namelist():
             raise DescriptionError(

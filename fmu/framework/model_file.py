@@ -10,7 +10,14 @@ from ...errors import DescriptionError
 from ...reading.archives import checked_archive, member
 from ...reading.xml_elements import check_xml
 
-__all__ = ["read_model"]
+__all__ = ["no_fmu", "read_model"]
+
+
+def no_fmu(path: Path) -> str:
+    """How to make an FMU of a file that is none; empty if that is not known."""
+    if path.suffix not in (".toml", ".json"):
+        return ""
+    return f"make one of a scene first: contactkit fmu build {path.name} --out {path.stem}.fmu"
 
 
 def read_model(path: Path) -> Any:
@@ -27,7 +34,9 @@ def read_model(path: Path) -> Any:
     if not path.is_file():
         raise DescriptionError("FMU", str(path), "be a file that is there")
     if not zipfile.is_zipfile(path):
-        raise DescriptionError("FMU", str(path), "be an FMU, which is a zip archive")
+        raise DescriptionError(
+            "FMU", str(path), "be an FMU, which is a zip archive", hint=no_fmu(path)
+        )
     where = str(path)
     with path.open("rb") as file, checked_archive(file, where) as packed:
         text = member(packed, "modelDescription.xml", "TEXT_BYTES", where)

@@ -84,7 +84,10 @@ def modelica_package(fmu: str | os.PathLike[str], name: str) -> str:
     """
     if not _NAME.fullmatch(name) or keyword.iskeyword(name) or name in _RESERVED:
         raise DescriptionError(
-            "name", name, "be letters, digits and underscores, and no word of Modelica"
+            "name",
+            name,
+            "be letters, digits and underscores, begin with no digit, and be no word of Modelica",
+            hint="it is that of the file to write: --out Film2.mo",
         )
     require("fmpy", "reading an FMU")
     model = read_model(Path(fmu))

@@ -35,7 +35,14 @@ from .records import (
     Scaling,
     Table,
 )
-from .rheology import nearest_gap, rheological_film, rheology_record, scaling_of
+from .rheology import (
+    check_face,
+    film_in_hosts,
+    nearest_gap,
+    rheological_film,
+    rheology_record,
+    scaling_of,
+)
 from .tables import Tabulate, tabulate
 
 __all__ = [
@@ -223,6 +230,9 @@ def _film(common: _Common, fraction: float) -> Film:
     made = common.plan
     film, prepared = made.film_with(fraction), with_fraction(made.prepared, fraction)
     rheology = _computed(prepared)
+    if rheology is not None:
+        start = made.scene.loading.initial_gap
+        rheology = film_in_hosts(rheology, common.lowest, start)
     forces = _forces(made.scene)
     rules = [e.prepare(prepared) for e in made.scene.effects if isinstance(e, FilmEnd)]
     is_liquid = any(kind.newtonian is not None for kind in film.laws)
@@ -285,12 +295,8 @@ def _check_rheology(made: Plan) -> None:
     """Refuse films that tables over the gap do not hold."""
     scene, rheology = made.scene, made.prepared.rheology
     if rheology is not None and rheology.computed:
-        if not isinstance(rheology.film, RheologyOfFilm):
-            raise PlanError(
-                "a native FMU knows a viscosity over pressure or shear between discs and under a "
-                'sphere, not on a face that is no disc; ViscousForce(rheology="newtonian") leaves '
-                "it out, or run the scene with ck.simulate"
-            )
+        if isinstance(rheology.film, RheologyOfFilm):
+            check_face(rheology.film.film)
         return
     is_limited = scene.effect(TensionLimit) is not None
     if scene.meniscus.slips and is_limited and not scene.interface.is_flat:

@@ -2,7 +2,8 @@
 
 The force of such a film is that at the viscosity at rest times a ratio of gap and speed. Films that
 keep their rim, films that draw in, and those in which the fastest shear is at the rim, or inside it
-under a sphere, have tables of their own: the ratio has a kink between them.
+under a sphere, have tables of their own: the ratio has a kink between them. A film on a face that
+is no disc is one stretch.
 """
 
 from __future__ import annotations
@@ -15,8 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import evolve
 
-from ...errors import ConvergenceError
-from ...lubrication.flow_laws.base import FlowLaw
+from ...errors import ConvergenceError, PlanError
 from ...lubrication.flow_laws.carreau import Carreau
 from ...lubrication.flow_laws.eyring import Eyring
 from ...lubrication.flow_laws.newtonian import Newtonian
@@ -25,7 +25,8 @@ from ...lubrication.flow_laws.pressure_laws import Barus
 from ...numerics.roots import bracketed_root
 from ...scene.scenes import SeparationScene
 from ...separation.effects.prepared import PreparedScene
-from ...separation.rheology.changes import PARTS
+from ...separation.rheology.changes import PARTS, film_of
+from ...separation.rheology.face import FaceRheology, resolved
 from ...separation.rheology.film import RheologicalFilm
 from ...separation.rheology.prepared_film import PreparedFilm
 from ..slaves.rheology import is_rheological
@@ -37,7 +38,19 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-__all__ = ["FASTEST", "nearest_gap", "rheological_film", "rheology_record", "scaling_of"]
+__all__ = [
+    "FASTEST",
+    "AnyFilm",
+    "check_face",
+    "film_in_hosts",
+    "nearest_gap",
+    "rheological_film",
+    "rheology_record",
+    "scaling_of",
+]
+
+AnyFilm = RheologicalFilm | FaceRheology
+
 
 FASTEST = 10.0
 """Speed [m/s] at a third of the gap at the start, up to which the tables go there.
@@ -48,23 +61,49 @@ At other gaps they go to that times their units of the speed.
 _NEARER = 1.0 / 3.0  # of the gap at the start: a mass that closes meets thinner films
 _SMALLEST = 1e-13  # [m]
 _FAR_NEARER, _NEARER_BY_TABLE = 1e-3, 0.03  # of the gap at the start
+_NEARER_ON_FACE = 0.1  # the reach of the table of `FaceFilm`
+_CORRECTED = 1e9
+"""Rate of shear [1/s] beyond which the correction of an estimate stays, which no law was measured
+at."""
 _ONSET = 1e-7  # of a logarithm, below which it goes on as a power of the speed
 _SLOWEST = 18.0  # decades of the speed in which the onset is looked for
 _NEAREST = math.log(1e3)  # ln r/(1 - r): speeds 1e-3 below a pole
+_NEAREST_ON_FACE = math.log(30.0)  # where groups of cells leave 1e-4; 2e-3 at 1e-3 of the pole
 _SOLID = 10.0  # logarithm of a viscosity over that at rest, beyond which no film is driven out
 _COSTLY = 2e-5  # error of a ratio, each of which takes 1 ms or more
 _BISECTIONS = 36  # from decades of the speed to 1e-10 of it
 _LEVEL = 0.999  # of the gap at which a film that keeps its height at the rim ends
 
 
-def rheological_film(prepared: PreparedScene[SeparationScene]) -> RheologicalFilm | None:
+def rheological_film(prepared: PreparedScene[SeparationScene]) -> AnyFilm | None:
     """Film of a scene with all of the rheology of its liquid; None of a Newtonian one."""
     if not is_rheological(prepared.scene):
         return None
-    return RheologicalFilm.of(prepared, tuple(part.name for part in PARTS))
+    return film_of(prepared, tuple(part.name for part in PARTS))
 
 
-def scaling_of(film: RheologicalFilm) -> Scaling:
+def check_face(film: AnyFilm) -> None:
+    """Refuse a film on a face that is no disc which tables do not hold.
+
+    With pressure and shear together its estimate and its solution close as fast as they can at
+    speeds of their own, and its tables would take minutes.
+
+    Raises
+    ------
+    PlanError
+        With the cure.
+    """
+    is_newtonian, has_pressure = isinstance(film.law, Newtonian), film.law.pressure_law is not None
+    if isinstance(film, RheologicalFilm) or is_newtonian or not has_pressure:
+        return
+    raise PlanError(
+        "on a face that is no disc a native FMU knows a viscosity over pressure or one over shear, "
+        "not pressure_viscosity beside shear_viscosity; leave one of them out of the liquid, or "
+        'both by ViscousForce(rheology="newtonian"), or run the scene with ck.simulate'
+    )
+
+
+def scaling_of(film: AnyFilm) -> Scaling:
     """Argument of the ratio of a film whose viscosity at rest is another one.
 
     A liquid that thins at a rate of shear has a ratio of the speed; one that thins at a stress or
@@ -79,14 +118,30 @@ def scaling_of(film: RheologicalFilm) -> Scaling:
     return Scaling.SPEED if by_rate and math.isinf(film.strength) else Scaling.NONE
 
 
-def nearest_gap(film: RheologicalFilm, start: float) -> float:
+def nearest_gap(film: AnyFilm, start: float) -> float:
     """Smallest gap [m] of the tables of a film, for motions from a gap [m] on.
 
     The ratios of most films between flats are of one variable, and known at any gap.
     """
     one_variable = film.has_one_variable or _is_flat_newtonian(film)
     far = one_variable and math.isinf(film.strength)
-    return max(_SMALLEST, (_FAR_NEARER if far else _NEARER_BY_TABLE) * start)
+    nearer = _NEARER_BY_TABLE if isinstance(film, RheologicalFilm) else _NEARER_ON_FACE
+    return max(_SMALLEST, (_FAR_NEARER if far else nearer) * start)
+
+
+def film_in_hosts(prepared: PreparedFilm, lowest: float, start: float) -> PreparedFilm:
+    """Film whose grids are fine enough for any motion from a gap [m] on, down to a lowest [m].
+
+    On a face that is no disc those of a scene are of the motion that its loading lets expect.
+    """
+    film = prepared.film
+    if isinstance(film, RheologicalFilm):
+        return prepared
+    near = max(lowest, _NEARER * start)
+    fastest = min(FASTEST * film.shear_per_speed(near), _CORRECTED)
+    path = [(gap, fastest / film.shear_per_speed(gap)) for gap in (near, start)]
+    film = resolved(film, path, film.full.rtol, fastest)
+    return evolve(prepared, film=film)
 
 
 def rheology_record(prepared: PreparedFilm, gaps: tuple[float, float], start: float) -> Rheology:
@@ -105,9 +160,11 @@ def rheology_record(prepared: PreparedFilm, gaps: tuple[float, float], start: fl
     return Rheology(scaling=scaling_of(film), viscosity=film.viscosity, stretches=tuple(stretches))
 
 
-def _marks(film: RheologicalFilm, low: float, high: float) -> list[float]:
+def _marks(film: AnyFilm, low: float, high: float) -> list[float]:
     """Gaps [m] at which the ratio has a kink."""
     shape, found = film.shape, list[float]()
+    if isinstance(film, FaceRheology):
+        return found
     if 0.0 < shape.full_gap < math.inf:
         found.append(shape.full_gap)
     sphere = shape.sphere_radius
@@ -138,7 +195,7 @@ def _stretch(prepared: PreparedFilm, gaps: tuple[float, float], fast: float) -> 
     )
 
 
-def _full(film: RheologicalFilm, gaps: tuple[float, float], fast: float) -> Ratio:
+def _full(film: AnyFilm, gaps: tuple[float, float], fast: float) -> Ratio:
     """Logarithm of the force over the linear one, while the film opens."""
     units = Units(lambda rows: _unit(film, rows))
     function = _logarithm(film, 1.0)
@@ -146,13 +203,16 @@ def _full(film: RheologicalFilm, gaps: tuple[float, float], fast: float) -> Rati
     return ratio(function, units, _axes(film, function, units, gaps, highest), _rtol(film))
 
 
-def _rtol(film: RheologicalFilm) -> float:
-    """Error of a table: pressure and shear together take some 3 ms for each of its nodes."""
+def _rtol(film: AnyFilm) -> float:
+    """Error of a table: pressure and shear together take some 3 ms for each of its nodes.
+
+    On a face the film is known by groups of cells and cubics, which are no smoother.
+    """
     both = film.law.pressure_law is not None and not isinstance(film.law, Newtonian)
-    return _COSTLY if both else TOLERANCE
+    return _COSTLY if both or isinstance(film, FaceRheology) else TOLERANCE
 
 
-def _unit(film: RheologicalFilm, gaps: Floats) -> Floats:
+def _unit(film: AnyFilm, gaps: Floats) -> Floats:
     """Logarithms of speeds [m/s]: of a shear of 1 1/s, or where pressure alone counts, of 1/alpha.
 
     That pressure is the one on the axis at the viscosity at rest.
@@ -163,13 +223,15 @@ def _unit(film: RheologicalFilm, gaps: Floats) -> Floats:
     return -np.log(law.pressure_law.coefficient * _linear_pressure(film, gaps))
 
 
-def _linear_pressure(film: RheologicalFilm, gaps: Floats) -> Floats:
+def _linear_pressure(film: AnyFilm, gaps: Floats) -> Floats:
     """Pressure on the axis per speed [Pa.s/m], at the viscosity at rest."""
+    if isinstance(film, FaceRheology):
+        return np.asarray(film.linear_pressures(gaps), dtype=np.float64)
     plain = evolve(film, law=evolve(film.law, pressure_law=None))
     return np.asarray(plain.peak_pressures(gaps, np.ones_like(gaps)), dtype=np.float64)
 
 
-def _logarithm(film: RheologicalFilm, sign: float) -> Callable[[Floats, Floats], Floats]:
+def _logarithm(film: AnyFilm, sign: float) -> Callable[[Floats, Floats], Floats]:
     def logarithm(gap: Floats, speed: Floats) -> Floats:
         force, linear = film.forces(gap, sign * speed)
         return np.asarray(np.log(np.abs(force / linear)))
@@ -184,13 +246,18 @@ def _of_one(
     return lambda gap, speed: np.broadcast_to(function(gap[:, :1], speed[:, :1]), gap.shape)
 
 
-def _is_flat_newtonian(film: RheologicalFilm) -> bool:
-    """Whether the ratio is of the pressure on the axis alone."""
-    return isinstance(film.law, Newtonian) and math.isinf(film.shape.sphere_radius)
+def _is_flat_newtonian(film: AnyFilm) -> bool:
+    """Whether the ratio is of the highest pressure alone."""
+    is_even = film.full.shape.is_even if isinstance(film, FaceRheology) else _has_flats(film)
+    return isinstance(film.law, Newtonian) and is_even
+
+
+def _has_flats(film: RheologicalFilm) -> bool:
+    return math.isinf(film.shape.sphere_radius)
 
 
 def _axes(
-    film: RheologicalFilm,
+    film: AnyFilm,
     function: Callable[[Floats, Floats], Floats],
     units: Units,
     gaps: tuple[float, float],
@@ -206,29 +273,34 @@ def _axes(
     first = max(int(np.argmax(matters)) - 1, 0) if matters.any() else trial.size - 4
     first = min(first, trial.size - 4)
     lowest, steep = float(trial[first]), seen[1, first + 1] / max(seen[1, first], 1e-300)
-    kink = None if units.is_pole else _kink(film.law)
+    kink = None if units.is_pole else _kink(film)
     if kink is not None and kink > lowest and kink < highest - 1.0:
         return Axes(gaps, (kink, highest), 1.0)
     fade = math.log(steep) / (trial[1] - trial[0]) if 1.0 < steep < 1e30 else 1.0
     return Axes(gaps, (lowest, highest), min(max(fade, 0.1), 10.0))
 
 
-def _kink(law: FlowLaw) -> float | None:
-    """Logarithm of the shear rate [1/s] at which a power law begins; None if that is not known."""
+def _kink(film: AnyFilm) -> float | None:
+    """Logarithm of the unit shear rate [1/s] at which a power law begins; None if not known."""
+    law = film.law
     is_plain = max(law.slip_length) == 0.0 and law.pressure_law is None
     if not (isinstance(law, PowerLaw) and is_plain and law.plateau_viscosity):
         return None
-    return math.log(law.plateau_stress / law.plateau_viscosity)
+    begins = math.log(law.plateau_stress / law.plateau_viscosity)
+    if isinstance(film, RheologicalFilm):
+        return begins
+    return begins - math.log(film.fastest_shear) if film.has_one_variable else None
 
 
-def _closing(film: RheologicalFilm, gaps: tuple[float, float]) -> Ratio:
+def _closing(film: AnyFilm, gaps: tuple[float, float]) -> Ratio:
     """The same while it closes: up to the speed at which no pressure drives the liquid out."""
     units = Units(lambda rows: _pole(film, rows), is_pole=True)
     function = _logarithm(film, -1.0)
-    return ratio(function, units, _axes(film, function, units, gaps, _NEAREST), _rtol(film))
+    highest = _NEAREST_ON_FACE if isinstance(film, FaceRheology) else _NEAREST
+    return ratio(function, units, _axes(film, function, units, gaps, highest), _rtol(film))
 
 
-def _pole(film: RheologicalFilm, gaps: Floats) -> Floats:
+def _pole(film: AnyFilm, gaps: Floats) -> Floats:
     """Logarithms of the speeds [m/s] from which on films cannot close, but as if solidified.
 
     What a Newtonian liquid's pressure would be at a constant viscosity is the same at all of them
@@ -249,7 +321,7 @@ def _pole(film: RheologicalFilm, gaps: Floats) -> Floats:
     return slow
 
 
-def _closes(film: RheologicalFilm, gaps: Floats, logs: Floats) -> Any:
+def _closes(film: AnyFilm, gaps: Floats, logs: Floats) -> Any:
     """Whether films close without solidifying, at logarithms of speeds [m/s]."""
     pressure_law = film.law.pressure_law
     assert pressure_law is not None
@@ -266,6 +338,7 @@ def _closes(film: RheologicalFilm, gaps: Floats, logs: Floats) -> Any:
 def _cavity(prepared: PreparedFilm, gaps: tuple[float, float], fast: float) -> Ratio:
     """Logarithm of the truncated force over that of the full film, from inception on."""
     film, onset = prepared.film, prepared.inception_speed(gaps)
+    assert isinstance(film, RheologicalFilm)  # others are refused
     units = Units(lambda rows: np.log([onset(h) for h in rows.tolist()]))
     highest = math.log(FASTEST / onset(min(max(fast, gaps[0]), gaps[1])))
 

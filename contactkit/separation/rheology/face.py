@@ -161,6 +161,17 @@ class FaceRheology:
         """Largest pressure differences from ambient [Pa] of full films, without a correction."""
         return self._estimates(gap, speed, self.law, self.cells[0])[1]
 
+    def linear_pressures(self, gap: Array) -> Array:
+        """Largest pressure differences per speed [Pa.s/m] at the viscosity at rest."""
+        flows = [self._flow(self.cells[0], one, self.law.slip_length) for one in gap.tolist()]
+        return self.viscosity * np.array([one.force * one.pressure.max() for one in flows])
+
+    @property
+    def fastest_shear(self) -> float:
+        """Fastest shear at a wall of an even face over that of a disc of the same area [-]."""
+        flux = self._flow(self.cells[0], 1.0, (0.0, 0.0)).flux.max()
+        return float(6.0 * flux / self.shear_per_speed(1.0))
+
     @cached_property
     def _shear(self) -> FlowLaw:
         """The law without its viscosity over pressure."""

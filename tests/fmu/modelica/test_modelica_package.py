@@ -18,6 +18,7 @@ fmpy = pytest.importorskip("fmpy")
 
 from contactkit.cli import main  # noqa: E402
 from contactkit.errors import DescriptionError  # noqa: E402
+from contactkit.fmu.contents.reference_check import check_references  # noqa: E402
 from contactkit.fmu.framework.toolchain import local  # noqa: E402
 from contactkit.fmu.modelica.package import modelica_package, write_modelica  # noqa: E402
 from contactkit.fmu.native.build import build_native  # noqa: E402
@@ -108,6 +109,19 @@ def test_what_is_no_fmu_of_contactkit_is_refused(toy_fmu, tmp_path, fmus):
     with pytest.raises(DescriptionError, match=r"end in \.mo"):
         write_modelica(fmus["stiction-mass"], tmp_path / "film.txt")
     assert [path.name for path in tmp_path.iterdir()] == ["text.fmu"]
+
+
+@pytest.mark.parametrize("call", [lambda file: modelica_package(file, "Film"), check_references])
+def test_a_scene_is_told_how_to_become_an_fmu(call, tmp_path):
+    (tmp_path / "film.toml").write_text("")
+    cure = re.escape("contactkit fmu build film.toml --out film.fmu")
+    with pytest.raises(DescriptionError, match=rf"be an FMU, which is a zip archive.*{cure}"):
+        call(tmp_path / "film.toml")
+
+
+def test_a_name_is_that_of_the_file(tmp_path):
+    with pytest.raises(DescriptionError, match=r"begin with no digit.*--out"):
+        write_modelica(tmp_path / "film.fmu", tmp_path / "2film.mo")
 
 
 @pytest.mark.slow

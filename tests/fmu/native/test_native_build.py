@@ -162,7 +162,8 @@ def test_variables_are_those_of_the_python_fmu(fmu):
     found = fmpy.read_model_description(str(fmu)).modelVariables
     of_tables = {"R", "V", "N", "theta1", "theta2", "meniscus_law", "rewet"}
     of_wetting = {"slip", "slip_from", "film_law", "a_break", "n_Ca", "trouton", "weight", "rho"}
-    assert set(ports) - {v.name for v in found} == {*of_tables, *of_wetting, *RHEOLOGY, "V_left"}
+    left = {*of_tables, *of_wetting, *RHEOLOGY, "V_left"}
+    assert set(ports) - {v.name for v in found} == left
     for variable in found:
         port = ports[variable.name]
         assert (variable.unit or "-", variable.causality) == (port.unit, port.causality)
