@@ -14,7 +14,7 @@ __all__ = ["no_fmu", "read_model"]
 
 
 def no_fmu(path: Path) -> str:
-    """How to make an FMU of a file that is none; empty if that is not known."""
+    """Cure for a file that is no FMU; empty but for a scene."""
     if path.suffix not in (".toml", ".json"):
         return ""
     return f"make one of a scene first: contactkit fmu build {path.name} --out {path.stem}.fmu"

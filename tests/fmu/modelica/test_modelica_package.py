@@ -112,7 +112,7 @@ def test_what_is_no_fmu_of_contactkit_is_refused(toy_fmu, tmp_path, fmus):
 
 
 @pytest.mark.parametrize("call", [lambda file: modelica_package(file, "Film"), check_references])
-def test_a_scene_is_told_how_to_become_an_fmu(call, tmp_path):
+def test_a_scene_is_refused_with_the_cure(call, tmp_path):
     (tmp_path / "film.toml").write_text("")
     cure = re.escape("contactkit fmu build film.toml --out film.fmu")
     with pytest.raises(DescriptionError, match=rf"be an FMU, which is a zip archive.*{cure}"):
