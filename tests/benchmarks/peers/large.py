@@ -82,6 +82,7 @@ def small(given):
         surfaces=["selfaffine"],
         boundaries=["periodic", "free"],
         areas=[5],
+        program=None,
         threads=[1],
         skip=[],
         budget=given.budget,
