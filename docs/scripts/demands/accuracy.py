@@ -330,8 +330,10 @@ _LIMITS = (
     "64 %), loops over pixels 14 % (7 %), and the compliance 1 % (5 %): these are spread over the "
     "threads, each of which takes whole rows and strips of columns, so that a convolution of a "
     "large map is the same to the last bit on any number of them. The rest is serial: the file, "
-    "the first touch of memory, sums and copies of maps. Two threads can gain 1.45 (1.6), and less "
-    "where `OMP_NUM_THREADS` holds ducc0 to one.",
+    "the first touch of memory, sums and copies of maps. Two threads could gain 1.45 (1.6), and on "
+    "idle cores gain what the table says: they take up to 15 % more CPU time together, for memory "
+    "that they share and for the lock of Python between pieces, which were not told apart. Where "
+    "`OMP_NUM_THREADS` holds ducc0 to one they gain less.",
     "**Single precision** carries most of the work at any tolerance: 28 of 32 convolutions of a "
     "periodic contact of 1024 x 1024 pixels to 1e-8, all of them to 1e-2. The four in double "
     "precision take 7 % of the time (isolated: 20 %), and their memory serves the others "
