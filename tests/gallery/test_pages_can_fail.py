@@ -201,6 +201,7 @@ def test_a_page_notices_a_constant_of_its_caption(name, monkeypatch):
         for name in ("RADIUS", "LOAD", "LAYER", "BASE", "THICKNESS")
     ],
 )
+@pytest.mark.filterwarnings("ignore")  # of a contact that is too wide for its window
 def test_the_sphere_on_a_layer_notices_what_enters_it(name, monkeypatch):
     page = importlib.import_module("contactkit.gallery.chapter_2.figure_2_03")
     value = getattr(page, name)
