@@ -29,6 +29,7 @@ __all__ = [
     "TOLERANCE",
     "Value",
     "Variability",
+    "choice_port",
     "display_conversion",
     "find_port",
     "grouped",
@@ -37,6 +38,7 @@ __all__ = [
     "size_port",
     "start_value",
     "step_limit",
+    "tabulated_size",
     "tolerance",
 ]
 
@@ -272,6 +274,36 @@ def size_port(
         start=start,
         minimum=0.0,
         display_unit=display_unit,
+        **more,
+    )
+
+
+def tabulated_size(
+    name: str, unit: str, label: str, start: float = 0.0, shown: str | None = None, **more: Any
+) -> Port:
+    """As `size_port`, of what a native FMU has in its tables; off by default."""
+    return size_port(name, unit, label, start, shown, tabulated=True, **more)
+
+
+def choice_port(name: str, label: str, start: IntEnum, **more: Any) -> Port:
+    """Parameter that is one of an enumeration; `more` as in `Port`.
+
+    Examples
+    --------
+    >>> class Law(IntEnum):
+    ...     NONE = 1
+    ...     EXACT = 2
+    >>> choice_port("law", "law that holds", Law.NONE).start
+    <Law.NONE: 1>
+    """
+    return Port(
+        name,
+        "-",
+        causality="parameter",
+        kind="enumeration",
+        enumeration=type(start),
+        label=label,
+        start=start,
         **more,
     )
 

@@ -21,7 +21,7 @@ from pythonfmu.enums import Fmi2Status
 from ...analyses.load_displacement.curve import Branch, CurvePoint, LoadDisplacementCurve
 from ...analyses.load_displacement.impact import in_series
 from ...errors import DescriptionError
-from ..framework.ports import Port, grouped, input_port, output_port, size_port
+from ..framework.ports import Port, choice_port, grouped, input_port, output_port, size_port
 from ..framework.slave import PortSlave
 
 __all__ = ["ContactStop", "StopSide"]
@@ -125,15 +125,7 @@ _PORTS = (
         "n_beyond", "-", "number of steps that ended beyond the tables", kind="integer", minimum=0
     ),
     size_port("h_touch", "m", "gap at which the faces touch", 25e-6, display_unit="um"),
-    Port(
-        "side",
-        "-",
-        causality="parameter",
-        label="from where the stop is met",
-        kind="enumeration",
-        enumeration=StopSide,
-        start=StopSide.ABOVE,
-    ),
+    choice_port("side", "from where the stop is met", StopSide.ABOVE),
     size_port("scale", "-", "number of windows, or spots, side by side", 1.0, exclusive=True),
     size_port(
         "k_body",

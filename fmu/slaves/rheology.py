@@ -16,7 +16,7 @@ from ...liquids.rheology.pressure import BarusViscosity, RoelandsViscosity
 from ...liquids.rheology.shear import CarreauViscosity, EyringViscosity, PowerLawViscosity
 from ...separation.effects.viscous import ViscousForce
 from ..framework.places import Place
-from ..framework.ports import Port, size_port
+from ..framework.ports import choice_port, tabulated_size
 
 if TYPE_CHECKING:
     from ...liquids.liquid import Liquid
@@ -54,37 +54,22 @@ class ShearLaw(IntEnum):
     EYRING = 4
 
 
-def _law(name: str, label: str, start: IntEnum) -> Port:
-    return Port(
-        name,
-        "-",
-        causality="parameter",
-        kind="enumeration",
-        enumeration=type(start),
-        label=label,
-        start=start,
-        tabulated=True,
-    )
-
-
-def _size(
-    name: str, unit: str, label: str, start: float = 0.0, shown: str | None = None, **more: Any
-) -> Port:
-    return size_port(name, unit, label, start, shown, tabulated=True, **more)
-
-
 RHEOLOGY_PORTS = (
-    _size("b1", "m", "slip length of the liquid on the fixed body", shown="nm"),
-    _size("b2", "m", "slip length of the liquid on the moving body", shown="nm"),
-    _law("pressure_law", "viscosity over pressure", PressureLaw.NONE),
-    _size("alpha", "1/Pa", "slope of ln eta over pressure, at ambient pressure", maximum=1e-6),
-    _law("shear_law", "viscosity over the rate of shear", ShearLaw.NONE),
-    _size("n_shear", "-", "exponent of POWER_LAW and CARREAU; 1: Newtonian", 1.0, maximum=1.5),
-    _size("rate_c", "1/s", "rate of shear beyond which a POWER_LAW thins"),
-    _size("t_relax", "s", "relaxation time of CARREAU"),
-    _size("eta_ratio", "-", "second plateau over eta, of CARREAU", maximum=1.0),
-    _size("a_shear", "-", "sharpness of CARREAU: Yasuda's a", 2.0, exclusive=True),
-    _size("tau_E", "Pa", "stress of EYRING", shown="MPa"),
+    tabulated_size("b1", "m", "slip length of the liquid on the fixed body", shown="nm"),
+    tabulated_size("b2", "m", "slip length of the liquid on the moving body", shown="nm"),
+    choice_port("pressure_law", "viscosity over pressure", PressureLaw.NONE, tabulated=True),
+    tabulated_size(
+        "alpha", "1/Pa", "slope of ln eta over pressure, at ambient pressure", maximum=1e-6
+    ),
+    choice_port("shear_law", "viscosity over the rate of shear", ShearLaw.NONE, tabulated=True),
+    tabulated_size(
+        "n_shear", "-", "exponent of POWER_LAW and CARREAU; 1: Newtonian", 1.0, maximum=1.5
+    ),
+    tabulated_size("rate_c", "1/s", "rate of shear beyond which a POWER_LAW thins"),
+    tabulated_size("t_relax", "s", "relaxation time of CARREAU"),
+    tabulated_size("eta_ratio", "-", "second plateau over eta, of CARREAU", maximum=1.0),
+    tabulated_size("a_shear", "-", "sharpness of CARREAU: Yasuda's a", 2.0, exclusive=True),
+    tabulated_size("tau_E", "Pa", "stress of EYRING", shown="MPa"),
 )
 """Parameters of the rheology; a native FMU has it in its tables."""
 
@@ -169,10 +154,18 @@ def check_rheology(values: Mapping[str, Any]) -> None:
                 unit="" if port.unit == "-" else port.unit,
                 hint=f"choose the {law} that it is a constant of",
             )
+    _laws(values)
+
+
+def _laws(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Laws that are chosen, by their fields of `Liquid`."""
+    found = {}
     for law in _LAWS:
-        made, fields = _constants(law, values)
-        if made is not None:
-            _made(made, {field: (name, values[name]) for name, field in fields.items()})
+        kind, fields = _constants(law, values)
+        if kind is not None:
+            constants = {field: (name, values[name]) for name, field in fields.items()}
+            found[_FIELDS[law]] = _made(kind, constants)
+    return found
 
 
 def _made(kind: type, constants: Mapping[str, tuple[str, float]]) -> Any:
@@ -193,13 +186,7 @@ def has_rheology(values: Mapping[str, Any]) -> bool:
 
 def with_laws(liquid: Liquid, values: Mapping[str, Any]) -> Liquid:
     """Liquid with the laws that the parameters of an FMU describe."""
-    laws = {}
-    for law in _LAWS:
-        made, fields = _constants(law, values)
-        if made is not None:
-            found = _made(made, {field: (name, values[name]) for name, field in fields.items()})
-            laws[_FIELDS[law]] = found
-    return evolve(liquid, **laws) if laws else liquid
+    return evolve(liquid, **_laws(values))
 
 
 def rheology_values(scene: SeparationScene) -> dict[str, Any]:

@@ -24,7 +24,15 @@ from ...separation.cavity.state import FULL, Cavity, Phase, restored_cavity
 from ...separation.effects.base import FilmStatus, LimitKind
 from ...separation.integrator.radau import Forces
 from ...separation.plan import Film, Plan, plan
-from ..framework.ports import Port, find_port, grouped, input_port, output_port, size_port
+from ..framework.ports import (
+    Port,
+    choice_port,
+    find_port,
+    grouped,
+    input_port,
+    output_port,
+    size_port,
+)
 from ..framework.slave import PortSlave
 from . import stiction_mass
 from .film_travel import Travel, travel
@@ -157,14 +165,8 @@ _PORTS = (
     _of_mass("V_void"),
     _of_mass("V_left", _MENISCUS),
     size_port("m_ref", "kg", "mass that the tool moves", 0.02, "g", exclusive=True),
-    Port(
-        "exchange",
-        "-",
-        causality="parameter",
-        kind="enumeration",
-        enumeration=Exchange,
-        label="what the tool exchanges; impulses need no stable step",
-        start=Exchange.FORCE,
+    choice_port(
+        "exchange", "what the tool exchanges; impulses need no stable step", Exchange.FORCE
     ),
     *(find_port(stiction_mass.PORTS, name) for name in _KEPT),
 )

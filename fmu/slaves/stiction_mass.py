@@ -33,6 +33,7 @@ from ..framework.places import Place, differences, read, write
 from ..framework.ports import (
     PYTHON_STEPS,
     Port,
+    choice_port,
     grouped,
     input_port,
     output_port,
@@ -204,16 +205,7 @@ _PORTS = (
         minimum=1,
         tabulated=True,
     ),
-    Port(
-        "meniscus_law",
-        "-",
-        causality="parameter",
-        label="meniscus force that acts",
-        kind="enumeration",
-        enumeration=MeniscusLaw,
-        start=MeniscusLaw.EXACT,
-        tabulated=True,
-    ),
+    choice_port("meniscus_law", "meniscus force that acts", MeniscusLaw.EXACT, tabulated=True),
     size_port("dp_cav", "Pa", "tension at which the pressure is cut off; 0: no limit", 0.0, "bar"),
     size_port(
         "dp_inception",

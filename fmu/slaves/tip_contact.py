@@ -54,6 +54,7 @@ from ..framework.places import Place, differences, read, write
 from ..framework.ports import (
     PYTHON_STEPS,
     Port,
+    choice_port,
     grouped,
     input_port,
     output_port,
@@ -218,16 +219,7 @@ _PORTS = (
     size_port(
         "theta2", "rad", "contact angle on the tip", 0.7, "deg", maximum=math.pi, tabulated=True
     ),
-    Port(
-        "profile",
-        "-",
-        causality="parameter",
-        label="profile of the meniscus",
-        kind="enumeration",
-        enumeration=TipLaw,
-        start=TipLaw.EXACT,
-        tabulated=True,
-    ),
+    choice_port("profile", "profile of the meniscus", TipLaw.EXACT, tabulated=True),
     size_port("d_stop", "s/m", "damping of the site over its force; needs a curve", 0.0),
     tolerance(1e-7),
     step_limit(PYTHON_STEPS),

@@ -15,7 +15,7 @@ from ...separation.wetting.landau_levich import LandauLevichFilm
 from ...separation.wetting.rupture import DynamicRupture
 from ...separation.wetting.trouton import TroutonForce
 from ...separation.wetting.weight import LiquidWeight
-from ..framework.ports import Port, size_port
+from ..framework.ports import choice_port, tabulated_size
 
 if TYPE_CHECKING:
     from ...capillary.wetting.landau_levich import ThicknessLaw
@@ -59,39 +59,31 @@ _BODIES: Mapping[WeightOn, Literal["lower", "upper"]] = {
 }
 
 
-def _choice(name: str, label: str, start: IntEnum) -> Port:
-    return Port(
-        name,
-        "-",
-        causality="parameter",
-        kind="enumeration",
-        enumeration=type(start),
-        label=label,
-        start=start,
-        tabulated=True,
-    )
-
-
-def _size(
-    name: str, unit: str, label: str, start: float = 0.0, shown: str | None = None, **more: Any
-) -> Port:
-    return size_port(name, unit, label, start, shown, tabulated=True, **more)
-
-
 WETTING_PORTS = (
-    _size("slip", "m", "slip length of a moving contact line; 0: its angle stays", shown="nm"),
-    _size(
+    tabulated_size(
+        "slip", "m", "slip length of a moving contact line; 0: its angle stays", shown="nm"
+    ),
+    tabulated_size(
         "slip_from",
         "m",
         "length that the moving angle is seen from; 0: height of the film at its rim",
         shown="um",
     ),
-    _choice("film_law", "film that a receding contact line leaves behind", FilmLaw.NONE),
-    _size("a_break", "-", "factor of the break distance, 1 + a_break Ca^n_Ca; 0: as at rest"),
-    _size("n_Ca", "-", "exponent of the capillary number there", 0.5, exclusive=True),
-    _size("trouton", "-", "extensional over shear viscosity of the column; 0: not there"),
-    _choice("weight", "body whose force has the weight of the liquid in it", WeightOn.NONE),
-    _size("rho", "kg/m3", "density of the liquid; 0: not known"),
+    choice_port(
+        "film_law", "film that a receding contact line leaves behind", FilmLaw.NONE, tabulated=True
+    ),
+    tabulated_size(
+        "a_break", "-", "factor of the break distance, 1 + a_break Ca^n_Ca; 0: as at rest"
+    ),
+    tabulated_size("n_Ca", "-", "exponent of the capillary number there", 0.5, exclusive=True),
+    tabulated_size("trouton", "-", "extensional over shear viscosity of the column; 0: not there"),
+    choice_port(
+        "weight",
+        "body whose force has the weight of the liquid in it",
+        WeightOn.NONE,
+        tabulated=True,
+    ),
+    tabulated_size("rho", "kg/m3", "density of the liquid; 0: not known"),
 )
 """Parameters of dynamic wetting, which native FMUs do not have."""
 

@@ -152,3 +152,11 @@ def open_fmu(shelf):
 @pytest.fixture
 def toy(toy_fmu, open_fmu):
     return open_fmu(toy_fmu)
+
+
+@pytest.fixture(scope="session")
+def probe(shelf):
+    """The kernel of native FMUs as a program that evaluates forces."""
+    from native_scenes import compile_probe  # it needs what some machines lack
+
+    return shelf.folder("kernel probe", compile_probe) / "probe"

@@ -16,7 +16,6 @@ from native_scenes import (
     SCENES,
     SPHERE,
     bare_meniscus,
-    compile_probe,
     probed,
     scene,
 )
@@ -39,11 +38,6 @@ from contactkit.separation.effects.base import LimitKind
 from contactkit.separation.motion.advance import advance
 from contactkit.separation.motion.state import Pull, outputs, start
 from contactkit.separation.plan import plan
-
-
-@pytest.fixture(scope="module")
-def probe(shelf):
-    return shelf.folder("kernel probe", compile_probe) / "probe"
 
 
 @pytest.fixture(scope="module")

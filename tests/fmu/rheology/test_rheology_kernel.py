@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from attrs import evolve
-from native_scenes import HAS_CC, compile_probe, probed
+from native_scenes import HAS_CC, probed
 from rheology_scenes import EYRING, GAP, SCENES, VISCOSITY, scene
 from selection import quick
 
@@ -21,11 +21,6 @@ from contactkit.fmu.native.film import moving, prepared_film
 from contactkit.separation.effects.base import LimitKind
 
 KINK = 1e-4  # of a force next to the kink of a power law, whose integral is 1e-5 off itself
-
-
-@pytest.fixture(scope="module")
-def probe(shelf):
-    return shelf.folder("kernel probe", compile_probe) / "probe"
 
 
 @pytest.fixture(scope="module")
