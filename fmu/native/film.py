@@ -293,10 +293,9 @@ def _liquid_shape(prepared: PreparedScene[SeparationScene]) -> FilmShape:
 
 def _check_rheology(made: Plan) -> None:
     """Refuse films that tables over the gap do not hold."""
-    scene, rheology = made.scene, made.prepared.rheology
-    if rheology is not None and rheology.computed:
-        if isinstance(rheology.film, RheologyOfFilm):
-            check_face(rheology.film.film)
+    scene, rheology = made.scene, _computed(made.prepared)
+    if rheology is not None:
+        check_face(rheology.film)
         return
     is_limited = scene.effect(TensionLimit) is not None
     if scene.meniscus.slips and is_limited and not scene.interface.is_flat:

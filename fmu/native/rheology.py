@@ -220,15 +220,7 @@ def _unit(film: AnyFilm, gaps: Floats) -> Floats:
     law = film.law
     if law.pressure_law is None or not isinstance(law, Newtonian):
         return -np.log([film.shear_per_speed(h) for h in gaps.tolist()])
-    return -np.log(law.pressure_law.coefficient * _linear_pressure(film, gaps))
-
-
-def _linear_pressure(film: AnyFilm, gaps: Floats) -> Floats:
-    """Pressure on the axis per speed [Pa.s/m], at the viscosity at rest."""
-    if isinstance(film, FaceRheology):
-        return np.asarray(film.linear_pressures(gaps), dtype=np.float64)
-    plain = evolve(film, law=evolve(film.law, pressure_law=None))
-    return np.asarray(plain.peak_pressures(gaps, np.ones_like(gaps)), dtype=np.float64)
+    return np.asarray(-np.log(law.pressure_law.coefficient * film.linear_pressures(gaps)))
 
 
 def _logarithm(film: AnyFilm, sign: float) -> Callable[[Floats, Floats], Floats]:
@@ -248,12 +240,7 @@ def _of_one(
 
 def _is_flat_newtonian(film: AnyFilm) -> bool:
     """Whether the ratio is of the highest pressure alone."""
-    is_even = film.full.shape.is_even if isinstance(film, FaceRheology) else _has_flats(film)
-    return isinstance(film.law, Newtonian) and is_even
-
-
-def _has_flats(film: RheologicalFilm) -> bool:
-    return math.isinf(film.shape.sphere_radius)
+    return isinstance(film.law, Newtonian) and film.is_even
 
 
 def _axes(

@@ -88,14 +88,14 @@ class FaceRheology:
         return isinstance(self.law, Newtonian) and self.law.pressure_law is None
 
     @property
-    def has_closed_slip(self) -> bool:
-        """Whether what slip leaves of the force is known in closed form."""
+    def is_even(self) -> bool:
+        """Whether the gap is the same everywhere: what slip leaves is known in closed form then."""
         return self.full.shape.is_even
 
     @property
     def has_one_variable(self) -> bool:
         """Whether the force over that at the viscosity at rest follows from the rate of shear."""
-        return self.full.shape.is_even and not self.slips and self.law.pressure_law is None
+        return self.is_even and not self.slips and self.law.pressure_law is None
 
     @property
     def slips(self) -> bool:
@@ -117,7 +117,7 @@ class FaceRheology:
     def linear_force(self, gap: float, speed: float) -> float:
         """Force [N] at the viscosity at rest, with slip."""
         plain = self.newtonian_force(gap, speed)
-        if self.has_closed_slip:
+        if self.is_even:
             return plain * float(slip_disc_factor(gap, *self.law.slip_length))
         return plain * self.slip_ratio(gap, self.cells[0]) if self.slips else plain
 
@@ -207,7 +207,7 @@ class FaceRheology:
         if key not in self._flows:
             self._flows[key] = self._solved(cells, gap, slip)._replace(state=None)
         made = self._flows[key]
-        return made.even(gap, slip) if self.full.shape.is_even else made
+        return made.even(gap, slip) if self.is_even else made
 
     def _solved(self, cells: int, gap: float, slip: tuple[float, float]) -> UnitFlow:
         """The same with its pressure in each cell; the last one is kept."""
@@ -219,7 +219,7 @@ class FaceRheology:
 
     def _key(self, cells: int, gap: float, slip: tuple[float, float]) -> _Key:
         """What decides a Newtonian film; an even face is solved once, at 1 m without slip."""
-        return (cells, 1.0, (0.0, 0.0)) if self.full.shape.is_even else (cells, gap, slip)
+        return (cells, 1.0, (0.0, 0.0)) if self.is_even else (cells, gap, slip)
 
     def _linear_forces(self, gap: Array, speed: Array) -> Array:
         return np.asarray(np.vectorize(self.linear_force, otypes=[float])(gap, speed))
@@ -309,12 +309,12 @@ def resolved(
     fastest : float
         Rate of shear [1/s] up to which the correction is solved for.
     """
-    if film.is_linear and film.has_closed_slip:
+    if film.is_linear and film.is_even:
         return film
     places = _tried(film, path)
 
     def of_flux(cells: int) -> Array:
-        slips = film.slips and not film.has_closed_slip
+        slips = film.slips and not film.is_even
         slip = [film.slip_ratio(gap, cells) if slips else 1.0 for gap, _ in places]
         return np.log([film.estimate(*one, cells) for one in places]) + np.log(slip)
 
@@ -355,7 +355,7 @@ def _tried(film: FaceRheology, path: Sequence[tuple[float, float]]) -> list[tupl
     That at which the force is least proportional to the speed; on a face that is not even also
     those of the smallest and the largest gap, where the flux takes other ways.
     """
-    ends = [] if film.full.shape.is_even else [min(path), max(path)]
+    ends = [] if film.is_even else [min(path), max(path)]
     if film.is_linear:
         return ends
     gap, speed = np.array(path).T

@@ -93,15 +93,14 @@ class RheologicalFilm:
         return isinstance(self.law, Newtonian) and self.law.pressure_law is None
 
     @property
-    def has_closed_slip(self) -> bool:
-        """Whether the force of a Newtonian liquid that slips is known in closed form."""
+    def is_even(self) -> bool:
+        """Whether the gap is the same everywhere: what slip leaves is known in closed form then."""
         return math.isinf(self.shape.sphere_radius)
 
     @property
     def has_one_variable(self) -> bool:
         """Whether the force over that at the viscosity at rest follows from the rate of shear."""
-        is_flat = math.isinf(self.shape.sphere_radius)
-        return is_flat and not self.slips and self.law.pressure_law is None
+        return self.is_even and not self.slips and self.law.pressure_law is None
 
     @property
     def slips(self) -> bool:
@@ -157,6 +156,11 @@ class RheologicalFilm:
     def peak_pressures(self, gap: Array, speed: Array) -> Array:
         """Largest pressure differences from ambient [Pa] of full films."""
         return np.asarray(np.abs(self._squeezed(gap, speed).centre_pressure))
+
+    def linear_pressures(self, gap: Array) -> Array:
+        """Largest pressure differences per speed [Pa.s/m] at the viscosity at rest, with slip."""
+        plain = evolve(self, law=evolve(self.law, pressure_law=None))
+        return plain.peak_pressures(gap, np.ones_like(gap))
 
     def force(self, gap: float, speed: float) -> float:
         """Force of all films [N]; -inf where no pressure closes the gap so fast."""

@@ -74,7 +74,7 @@ class PreparedFilm:
     def linear_force(self, gap: float, speed: float) -> float:
         """Force [N] at the viscosity at rest, with slip."""
         piece, film = self._piece(gap), self.film
-        if piece is None or film.has_closed_slip or not film.slips:
+        if piece is None or film.is_even or not film.slips:
             return film.linear_force(gap, speed)
         ratio = self._made("slip", piece, lambda: self._slip_table(self._pieces[piece]))
         return film.newtonian_force(gap, speed) * math.exp(float(ratio(math.log(gap))))
