@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from ..reading.texts import is_number
 from .scenes import write_whole
 
 __all__ = ["csv_line", "text_cell", "write_rows"]
@@ -30,15 +31,7 @@ def text_cell(text: str) -> str:
     """
     if not text.lstrip().startswith(_FORMULA) and text[:1] not in ("\t", "\r", "\n"):
         return text
-    return text if text == "-" or _is_number(text) else f"'{text}"
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    return text if text == "-" or is_number(text) else f"'{text}"
 
 
 def csv_line(cells: Iterable[Any]) -> str:

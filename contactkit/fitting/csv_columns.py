@@ -9,15 +9,14 @@ from pathlib import Path
 
 from ..errors import DescriptionError
 from ..reading.limits import check_limit
-from ..reading.texts import decoded, read_bytes
+from ..reading.texts import DECIMAL_COMMA, decoded, is_number, read_bytes
 
 __all__ = ["csv_columns"]
 
 _CELL = re.compile(
     r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?"
 )  # between blanks: a name and its unit are one
-_DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+(?:[eE][-+]?\d+)?\s*")
-_DECIMAL_POINT = re.compile(r"\s*[-+]?\d*\.\d")
+_DECIMAL_POINT = re.compile(r"[-+]?\d*\.\d")
 _Row = list[str]
 
 
@@ -43,7 +42,7 @@ def csv_columns(path: Path) -> tuple[list[str], list[list[str]]]:
     body = [line for line in lines if not line.startswith("#")]
     separator = _separator(body[0]) if body else ","
     rows = _rows(body, separator)
-    if rows and all(map(_is_number, rows[0])):
+    if rows and all(is_number(cell.replace(",", ".")) for cell in rows[0]):
         rows = [_head_of(comments, separator, len(rows[0]), path), *rows]
     if len(rows) < 2:
         raise DescriptionError("file", str(path), "have a head and at least one row")
@@ -80,13 +79,5 @@ def _rows(lines: list[str], separator: str) -> list[_Row]:
 
 def _has_decimal_commas(rows: list[_Row]) -> bool:
     """Whether numbers have decimal commas: some do, and none has a decimal point."""
-    cells = [cell for row in rows for cell in row]
-    return any(map(_DECIMAL_COMMA.fullmatch, cells)) and not any(map(_DECIMAL_POINT.match, cells))
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell.strip().replace(",", "."))
-    except ValueError:
-        return False
-    return True
+    cells = [cell.strip() for row in rows for cell in row]
+    return any(map(DECIMAL_COMMA.fullmatch, cells)) and not any(map(_DECIMAL_POINT.match, cells))

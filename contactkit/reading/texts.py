@@ -13,11 +13,13 @@ from ..errors import DescriptionError
 from .limits import check_limit, limit_of
 
 __all__ = [
+    "DECIMAL_COMMA",
     "check_keys",
     "check_plain",
     "check_texts",
     "decoded",
     "from_json",
+    "is_number",
     "printable",
     "read_bytes",
     "read_text",
@@ -34,6 +36,8 @@ _NO_KEYS = re.compile(
     re.DOTALL,
 )
 _BETWEEN_KEYS = re.compile(r"[=\[\]{},\n]")
+DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
+"""A number with a decimal comma, whole."""
 _INT64 = 2**63
 
 
@@ -92,6 +96,21 @@ def decoded(content: bytes, where: str) -> str:
             if "\0" not in text:
                 return text
     raise DescriptionError("file", where, "be a text", hint="export it as CSV, in UTF-8")
+
+
+def is_number(text: str) -> bool:
+    """Whether a cell of a table is a number, nan and infinity included.
+
+    Examples
+    --------
+    >>> is_number(" 1e-3 "), is_number("1,5")
+    (True, False)
+    """
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def check_keys(text: str, where: str) -> None:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DescriptionError
+from ..reading.texts import DECIMAL_COMMA, is_number
 from ..units import parse_quantity
 
 __all__ = ["HOLES", "Header", "read_header", "read_matrix", "read_points"]
@@ -45,7 +46,6 @@ _ALONG_X = ("width", "x amplitude")
 _UNITS = ("value units",)
 _HEIGHTS = ("z amplitude",)  # a length, in the unit of the heights
 
-_DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
 # What instruments write for a point that was not measured.
 _UNMEASURED = re.compile(r"(?<![^\s;,])(?:bad|n/?a|null|none|\*+|-{2,})(?![^\s;,])", re.IGNORECASE)
 
@@ -96,7 +96,7 @@ def _header_lines(file: Path) -> list[str]:
     with file.open(encoding="utf-8-sig", errors="replace") as text:
         for raw in islice(text, _LONGEST_HEADER):
             line = raw.strip()
-            is_words = line[:1].isalpha() and not _is_number(line.split()[0].rstrip(",;"))
+            is_words = line[:1].isalpha() and not is_number(line.split()[0].rstrip(",;"))
             is_entry = is_words and (":" in line or (lines or [line])[0].startswith("WSxM"))
             if line and not line.startswith("#") and not is_entry:
                 break
@@ -227,7 +227,7 @@ def _layout(file: Path, *, tabs: bool) -> _Layout:
     if ";" in first:
         return _Layout(";", "," in first, has_words)
     words = first.split()
-    if len(words) > 1 and all(map(_DECIMAL_COMMA.fullmatch, words)):
+    if len(words) > 1 and all(map(DECIMAL_COMMA.fullmatch, words)):
         return _Layout(None, True, has_words)
     if "\t" in first:
         return _Layout("\t" if tabs else None, "," in first, has_words)
@@ -242,7 +242,7 @@ def _reason(file: Path, layout: _Layout, message: str, *, holes: bool) -> Descri
         words = [word.strip() for word in text.split(layout.delimiter)]
         place = f"{file.name}, line {number}"
         for column, word in enumerate(words, start=1):
-            if _is_number(word) or (holes and (not word or _UNMEASURED.fullmatch(word))):
+            if is_number(word) or (holes and (not word or _UNMEASURED.fullmatch(word))):
                 continue
             hint = "put # before lines that are no data"
             if not word:
@@ -260,11 +260,3 @@ def _reason(file: Path, layout: _Layout, message: str, *, holes: bool) -> Descri
                 f"have {width} columns in each line, as in the first ({place})",
             )
     return DescriptionError("HeightMap.heights", message, f"be numbers ({file.name})")
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
