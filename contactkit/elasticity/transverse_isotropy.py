@@ -131,14 +131,8 @@ def stiffness_of(
 
     Parameters
     ----------
-    in_plane_modulus, axial_modulus : float
-        Young's moduli in the plane and along the axis [Pa].
-    in_plane_ratio : float
-        Poisson's ratio in the plane [-].
-    axial_ratio : float
-        Contraction in the plane under a stress along the axis [-].
-    shear_modulus : float
-        Of planes through the axis [Pa].
+    in_plane_modulus, axial_modulus, in_plane_ratio, axial_ratio, shear_modulus
+        See `plane_constants`.
 
     Raises
     ------
